@@ -89,8 +89,8 @@ fn write(world: &World<'_>) -> Outcome {
     std::fs::write(&path, text(world)).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
-/// Centres of the robots in metres, in rows along the front edge, each filled from the left. Fewer than `robots` if the
-/// floor is full.
+/// Centres of the robots in metres, in rows from the edge where y is largest, each filled from the left. Fewer than
+/// `robots` if the floor is full.
 fn places(robots: usize, floor_m: f64) -> Vec<(f64, f64)> {
     let in_row = (((floor_m - 2.0 * 0.05) / SPACING_M + 1e-9).floor() as usize + 1).max(1);
     let rows = ((floor_m - 2.0 * EDGE_M) / SPACING_M).max(0.0) as usize + 1;

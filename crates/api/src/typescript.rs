@@ -29,8 +29,8 @@ macro_rules! declarations {
     }};
 }
 
-/// The text of `ui/src/api/types.gen.ts`: every type of this crate with its documentation, the columns of the binary
-/// message, and the table of formats.
+/// The text of `ui/src/api/types.gen.ts`: the types that screen, server and the module in the browser exchange, each
+/// with its documentation. Also the columns of the binary message, and the table of formats.
 pub fn typescript() -> String {
     [HEAD, &messages(), &module(), &robots(), &formats()].concat()
 }

@@ -15,8 +15,7 @@ use crate::answer;
 /// moments than requested.
 const COLOURS_MAX: usize = 2_000_000;
 
-/// Decoded pictures that layers project on the floor. Untrusted files are decoded in a worker of the browser, never in the
-/// program that plays a show.
+/// Decoded pictures that layers project on the floor.
 #[wasm_bindgen]
 #[derive(Debug, Default)]
 pub struct LightPictures {

@@ -48,7 +48,8 @@ pub(crate) struct Fixtures {
 }
 
 impl Fixtures {
-    /// Receives the report of a robot, and adds the robot if it has not reported before.
+    /// Receives the report of a robot, and adds the robot if it has not reported before. If there are [`ROBOTS_MAX`]
+    /// robots already, a further one is ignored. A report of name and place alone changes neither abilities nor slot.
     pub fn receive(&mut self, now: Instant, report: &Report) {
         let details = report.details.as_ref();
         let knows_live = details.is_some_and(|details| details.abilities.live);

@@ -73,11 +73,12 @@ pub struct PacketCounts {
 }
 
 /// Receives packets of lighting desks and reports of robots, and makes messages of live light. Inputs are
-/// [`packet`](Self::packet), [`report`](Self::report) and [`wake`](Self::wake), each with the time `now`, which must not
-/// decrease. After each input, ask [`wake_at`](Self::wake_at) when to call `wake`. After each `wake`, take all results of
-/// [`next_publish`](Self::next_publish) and [`next_news`](Self::next_news).
+/// [`packet`](Self::packet), [`report`](Self::report) and [`wake`](Self::wake), each with the time `now`, which must
+/// not decrease. After each input, ask [`wake_at`](Self::wake_at) when to call `wake`. After each `wake`, take all
+/// results of [`next_publish`](Self::next_publish) and [`next_news`](Self::next_news).
 ///
-/// A desk controls the light of the robots whose three channels it sends. The show controls the light of all other robots.
+/// A desk controls the light of a robot if it sends the robot's three channels, and the robot understands live light
+/// and reports its slot. The show controls the light of all other robots.
 #[derive(Debug)]
 pub struct DeskReceiver {
     patch: PatchTable,
@@ -106,8 +107,8 @@ pub struct DeskReceiver {
 }
 
 impl DeskReceiver {
-    /// Makes a receiver that knows no robots. `number` is the number of the first moment of live light. It must be higher
-    /// than all numbers that were sent before, because robots ignore old numbers (R60).
+    /// Makes a receiver that knows no robots. `number` is the number of the first moment of live light. It must be
+    /// higher than all numbers that were sent before, because robots ignore numbers that are a little lower (R60).
     pub fn new(patch: PatchTable, number: u32, lamp: LampSettings) -> Self {
         Self {
             patch,

@@ -44,7 +44,8 @@ pub(crate) struct Universe {
 }
 
 impl Universe {
-    /// Receives a packet of this universe, and keeps its values unless it is ignored. Removes lost sources first.
+    /// Receives a packet of this universe, and keeps its values unless it is ignored or ends its source's stream.
+    /// Removes lost sources first.
     pub fn receive(&mut self, now: Instant, packet: DmxPacket) -> Taken {
         self.expire(now);
         let place = self.sources.iter().position(|source| source.id == packet.source);

@@ -18,8 +18,9 @@ pub(crate) struct UnpatchedUniverses {
     waiting: BTreeSet<u16>,
     /// Universes that were named to people.
     named: BTreeSet<u16>,
-    /// Whether packets of more than [`NAMED_MAX`] universes came. The next field: whether people were told so.
+    /// Whether packets of more than [`NAMED_MAX`] universes came.
     has_more: bool,
+    /// Whether people were told that there are more universes than are named.
     is_more_told: bool,
     /// When collecting began; see [`COLLECTED`].
     since: Instant,

@@ -1,9 +1,10 @@
-//! Tests whether a robot keeps the rules of `docs/protocol.md`, from outside, by messages alone.
+//! Tests from outside whether a robot keeps the rules of `docs/protocol.md`: by messages, and for the light by the
+//! answers of a person.
 //!
 //! The crate is sans-IO like the controller core: [`Exam`] takes messages and the time, and returns messages and
 //! events. The test is one script (`script`), an `async fn` that waits for messages and moments. `exam` polls the
 //! script after each input. There is no runtime, thread or clock behind it, and equal inputs give equal findings. The
-//! crate has no code for brokers, terminals or our own robot, and shares only the wire format with the controller.
+//! crate has no code for brokers, terminals or our own robot.
 //!
 //! In reading order: [`Exam`], [`Options`], [`ExamEvent`], [`Finding`] with its [`RuleVerdict`], [`RULES`].
 //!

@@ -144,8 +144,9 @@ impl Session {
         state.ledger.findings(state.stopped.as_deref())
     }
 
-    /// Commands the robot to stand: a robot with routes by `STOP`, an original robot by a target at its last position.
-    /// Does nothing before a robot is chosen: no robot was told to move, and others may play a show.
+    /// Commands the robot to stand: a robot with routes by `STOP`, an original robot by a target at its last reported
+    /// position. An original robot that has reported none drives on. Does nothing before a robot is chosen: no robot
+    /// was told to move, and others may play a show.
     pub fn make_stand(&self) {
         let place = self.last_place();
         let stay = place.map_or_else(String::new, |at| format!("|TARGET {:.6} {:.6}|", at.x, at.y));
@@ -209,8 +210,8 @@ impl Session {
         self.send_bytes(to, text.into().into_bytes());
     }
 
-    /// Publishes a message. Does nothing if it is for the robot under test and none is chosen, because on `Broadcast` it
-    /// would be for all robots.
+    /// Publishes a message. Before a robot is chosen, does nothing if the message is for the robot under test or the
+    /// absent robot, because there is no topic for it.
     pub fn send_bytes(&self, to: Addressee, payload: Vec<u8>) {
         let mut state = self.state.borrow_mut();
         let topic = match (to, state.subject) {
@@ -249,7 +250,8 @@ impl Session {
         self.state.borrow_mut().stopped = Some(why.to_owned());
     }
 
-    /// Number of messages received until now. Messages that are received later have this index or a higher one.
+    /// Number of stored messages of the robot under test. Messages that are stored later have this index or a higher
+    /// one.
     pub fn mark(&self) -> usize {
         self.state.borrow().log.len()
     }

@@ -92,7 +92,8 @@ impl Camera {
         }
     }
 
-    /// Returns the place of the floor that a point of the picture shows. `None` for a point above the horizon.
+    /// Returns the place of the floor that a point of the picture shows: `x` and `y` are pixels from the left and from
+    /// the top. `None` for a point on or above the horizon.
     pub fn floor_at(&self, x: f64, y: f64) -> Option<Vec2> {
         let (x, y) = ((x - self.shift.0) / self.scale, (y - self.shift.1) / self.scale);
         let Some(eye) = self.eye else { return Some(Vec2::new(x, -y)) };

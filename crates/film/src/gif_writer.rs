@@ -132,7 +132,10 @@ impl<W: Write> GifWriter<W> {
         Ok(Self { encoder, palette, size, shown, waiting: None, fps, pictures: 0 })
     }
 
-    /// If the previous frame cannot be written, which is done now unless the new picture only prolongs that frame.
+    /// Adds the next picture of the film: red, green and blue of each pixel, row by row from the top left.
+    ///
+    /// # Errors
+    /// If the previous frame cannot be written. It is written now, unless the new picture only prolongs it.
     pub fn add(&mut self, picture: &[u8]) -> Result<(), GifError> {
         let next: Vec<u8> = picture.chunks_exact(3).map(|pixel| self.palette.index(pixel)).collect();
         let moment = |pictures: u64| (pictures as f64 * 100.0 / self.fps).round() as u64;

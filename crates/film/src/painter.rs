@@ -18,7 +18,7 @@ const LIGHT_M: f64 = 0.03;
 
 /// A spot of light in the picture that fades towards its rim.
 struct Spot {
-    /// Radius of the spot, in radii of the robot's light, see [`CORE`].
+    /// Radius of the spot, in radii of the robot's light, see [`CORE`]; for [`POOL`], in radii of the robot.
     radius: f64,
     /// Strength at the centre of the spot, as a share of the robot's light.
     strength: f32,

@@ -5,7 +5,7 @@ use crate::layer::LightLayer;
 use crate::lit_robot::{LightContext, LitRobot};
 use crate::validate::{LayerFault, faults};
 
-/// Layers that were found valid, lowest first.
+/// Layers that were found valid, lowest first. [`Self::at_times`] changes times without a new check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers(Vec<LightLayer>);
 

@@ -15,7 +15,7 @@ pub struct Look {
     pub size_m: f64,
     /// Speed of the effect, cycles per second; with a negative speed, the effect runs backwards.
     pub speed_hz: f64,
-    /// The share of a cycle that shines, above 0 and at most 1.
+    /// A share, above 0 and at most 1: for example of a cycle that shines, or of the span that a tail takes.
     pub width: f64,
     /// Colours of the effect.
     pub palette: Palette,

@@ -17,7 +17,7 @@ fn share(hash: u64) -> f64 {
     (hash >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// The number of the cycle in which a phase is, its next lower whole number, as a word for [`unit()`].
+/// The number of the cycle in which a phase is, as a word for [`unit()`]: the phase rounded down to a whole number.
 pub(crate) fn cycle(phase: f64) -> u64 {
     libm::floor(phase) as i64 as u64
 }

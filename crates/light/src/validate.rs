@@ -115,7 +115,7 @@ impl Found {
         }
     }
 
-    /// Adds a fault if a value is less than the value before it. Ignores NaN, which `range` reports.
+    /// Adds one fault if a value is less than the value before it. Ignores NaN, which `range` reports.
     fn order(&mut self, field: &'static str, values: impl Iterator<Item = f64> + Clone) {
         let wrong = values.clone().zip(values.skip(1)).find(|(first, second)| first > second);
         if let Some((first, second)) = wrong {

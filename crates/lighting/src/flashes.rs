@@ -1,7 +1,7 @@
 //! Flashes of a show that can cause seizures: WCAG 2.2, success criterion 2.3.1.
 //!
 //! A general flash is a pair of opposing changes of relative luminance by a tenth of the maximum or more, the darker
-//! state below 0.8. A red flash is a pair of opposing changes of (R − G − B)·320 by more than 20. They involve a
+//! state below 0.8. A red flash is a pair of opposing changes of (R − G − B)·320 by 20 or more. They involve a
 //! saturated red: R/(R + G + B) ≥ 0.8. More than three flashes in a second must not cover more than a quarter of any
 //! 10° of the viewer's field of view. Here such a field is a square whose side is a quarter of the floor's depth, and
 //! each robot lights a square around itself. Three flashes a second are too many if they go on for more than five
@@ -114,8 +114,9 @@ impl Watched {
     }
 }
 
-/// Returns the first moment at which the light of a show flashes too often; `None` if it never does. `frames` are the
-/// show's frames in order. `depth_m` is the extent of the floor away from the viewer, metres; `area_m2` is its area.
+/// Returns the first moment at which the light of a show flashes too often. It looks every quarter of a second. `None`
+/// if the light never flashes too often, or there are no frames. `frames` are the show's frames in order. `depth_m` is
+/// the extent of the floor away from the viewer, metres; `area_m2` is its area.
 pub fn flashes(
     show: &ShowLight,
     frames: &[LitFrame<'_>],

@@ -34,7 +34,8 @@ fn text(show: &Show, fault: &LayerFault) -> String {
     }
 }
 
-/// Returns a warning with the first moment at which the light of a planned show flashes too often; `None` if it never does.
+/// Returns a warning with the first moment at which the light of a planned show flashes too often. `None` if it never
+/// does, or if no layer of the show can be shown.
 pub fn flashes_of(show: &Show, plan: &ShowPlan) -> Option<Issue> {
     let (light, _) = ShowLight::new(show);
     if light.is_empty() {

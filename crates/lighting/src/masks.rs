@@ -5,6 +5,7 @@ use lightbots_base::Vec2;
 use lightbots_light::{LightMask, MaskShape};
 use lightbots_show::{NamedSettings, Setting};
 
+/// Allowed values of the setting `shape`, for people.
 const SHAPES: &str = "pixels, rectangle, circle or polygon";
 
 /// Reads the setting `masks`: a list of objects, each with a `shape`. Each wrong setting of a mask is a fault of the layer.

@@ -91,7 +91,8 @@ impl<'a> PlannedShow<'a> {
     }
 
     /// Returns the frame at `at_s`, seconds from the start of the first drive, and the moment for its light. `None` if
-    /// there are no frames. Moments from the end of the show on become the moment just before its end.
+    /// there are no frames. Moments before the start become the start. Moments from the end of the show on become the
+    /// moment just before its end.
     fn moment(&self, at_s: f64) -> Option<(usize, LightMoment)> {
         let show_s = at_s - self.first_drive_s();
         let last = self.times.len().checked_sub(1)?;

@@ -36,15 +36,17 @@ pub struct FrameLight {
 }
 
 impl FrameLight {
-    /// Whether light changes while show time stands.
+    /// Whether light may change while show time stands.
     pub fn is_free(&self) -> bool {
         self.runs_freely || !self.live.list().is_empty()
     }
 }
 
 impl ShowLight {
-    /// Reads the layers of a show, with the decoded pictures of its assets. A layer that is wrong or lacks its picture
-    /// never shines. A setting without meaning is ignored. The returned faults name both.
+    /// Reads the layers of a show, with the decoded pictures of its assets. A layer never shines if it is wrong, lacks
+    /// its picture, or its span names a missing frame. A setting without meaning is ignored. The returned faults name
+    /// wrong layers, missing pictures and settings without meaning; at most
+    /// [`FAULTS_MAX`](lightbots_light::FAULTS_MAX).
     pub fn new(show: &Show) -> (Self, Vec<LayerFault>) {
         Self::with_pictures(show, |hash| {
             let asset = show.assets.get(&AssetHash::from_hex(hash)?)?;
@@ -85,7 +87,7 @@ impl ShowLight {
         (light, faults)
     }
 
-    /// Whether no layer ever shines.
+    /// Whether there are no layers that can be shown.
     pub fn is_empty(&self) -> bool {
         self.layers.is_empty()
     }

@@ -4,6 +4,7 @@ use lightbots_base::{Rgb, Span, Vec2};
 use lightbots_lighting::{DrivenLight, FlashWarning, LitFrame, ShowLight, flash_issue, flashes};
 use lightbots_show::{Frame, Layer, LayerSpan, Setting, Show};
 
+/// Air time of the frame, seconds.
 const AIR_S: f64 = 10.0;
 
 fn layer(kind: &str, name: &str, settings: &[(&str, Setting)]) -> Layer {

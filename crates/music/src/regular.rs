@@ -13,8 +13,8 @@ pub struct SteadyBeats {
 /// Share of the found beats that must be near those of a steady tempo. Less than 1, because a few found beats are wrong.
 const STEADY_SHARE: f64 = 0.95;
 
-/// Largest distance of a found beat from the nearest beat of the steady tempo at which it is near, seconds. It is half of
-/// what counts as the same beat, and more than the errors in steady music.
+/// Largest distance of a found beat from the nearest beat of the steady tempo at which it is near, seconds. It is more
+/// than the errors in steady music.
 const STEADY_S: f64 = 0.025;
 
 /// Number of beats in a bar of most music. The first beat that was found is taken as the first of a bar.

@@ -75,7 +75,7 @@ fn readiness(bpm: f64) -> f64 {
     (-0.5 * octaves * octaves).exp()
 }
 
-/// Returns how well each of `tempi`, in beats per minute, fits a span of onsets: 1 at best.
+/// Returns how well each of `tempi`, in beats per minute, fits a span of onsets: about 1 at best.
 fn combs(onsets: &[f32], tempi: &[f64]) -> Vec<f64> {
     let correlation = autocorrelation(onsets);
     let weights: f64 = COMB.iter().sum();

@@ -145,7 +145,8 @@ fn dots(arrivals_s: &[f64]) -> impl Iterator<Item = (usize, &f64)> {
     arrivals_s.iter().enumerate().filter(move |(index, _)| index % every == 0 || *index >= latest)
 }
 
-/// The smallest number of the form 1, 2 or 5 times a power of ten that is at least `least`.
+/// The smallest number of the form 1, 2 or 5 times a power of ten that is at least `least`. It may be less by 0.1 %, so
+/// that rounding errors do not matter. A `least` below 10⁻⁶ counts as that.
 fn nice(least: f64) -> f64 {
     let power = 10f64.powf(least.max(1e-6).log10().floor());
     [1.0, 2.0, 5.0, 10.0]

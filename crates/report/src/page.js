@@ -15,7 +15,7 @@
 
   /** The robots' samples: times in hundredths of a second, places in millimetres. None until they are unpacked. */
   let robots = [];
-  /** Unpacks the numbers: crates/report/src/packed.rs says how they stand. */
+  /** Unpacks the numbers of all robots. crates/report/src/packed.rs describes their order and coding. */
   const unpack = async () => {
     const text = atob($('replay-numbers').textContent);
     const packed = new Uint8Array(text.length);
@@ -51,7 +51,7 @@
     paint();
   };
 
-  /** Index of the last sample at or before a time, by halving. */
+  /** Index of the last sample at or before `time`, by halving; 0 if all samples are later. */
   const before = (samples, width, time) => {
     let low = 0;
     let high = samples.length / width - 1;
@@ -72,7 +72,7 @@
   };
   const lightAt = (light, time) => (light.length === 0 || light[0] > time ? 0 : light[before(light, 2, time) * 2 + 1]);
 
-  /** The path of the last and the next seconds, as a line. */
+  /** Draws the path from the time `from` to the time `until` as a line. Times are in hundredths of a second. */
   const trail = (draw, to, samples, from, until) => {
     if (samples.length < 6) return;
     draw.beginPath();

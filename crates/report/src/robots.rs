@@ -20,7 +20,7 @@ pub(crate) struct RobotNotes {
     pub latest_s: f64,
     pub errors_m: Vec<f64>,
     off_m: f64,
-    /// The count of brakes that the robot reported last; `None` before its first report.
+    /// The count of brakes that the robot reported last; `None` before its first report with more than a place.
     counted: Option<u32>,
     brakes: u64,
     /// Smallest gap to another robot that the robot reported on a route or on arrival, metres. The second value is when it
@@ -52,7 +52,8 @@ impl AllRobots {
         Some(self.by_name.entry(id).or_default())
     }
 
-    /// Leaves out places, more and more coarsely, until at most [`SAMPLES_MAX`] are kept for all robots together.
+    /// Leaves out places, more and more coarsely, until at most [`SAMPLES_MAX`] are kept for all robots together. Stops
+    /// after ten rounds in any case.
     pub fn thin(&mut self) {
         let count = |robots: &Self| -> usize {
             robots.by_name.values().map(|robot| robot.planned.count() + robot.driven.count()).sum()

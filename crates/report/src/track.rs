@@ -1,8 +1,9 @@
 //! Places over time, sparse enough to be small.
 //!
-//! A sample is left out if a straight line in time between the samples that are kept passes within [`TOLERANCE_M`] of
-//! it. While a run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled until it has fewer. Neither the
-//! memory nor the page of a long run then grows. The page contains the tolerance.
+//! A sample is left out if a straight line in time between the samples that are kept passes within a tolerance of it,
+//! at first [`TOLERANCE_M`]. While a run has more than [`SAMPLES_MAX`] samples, the tolerance is doubled and further
+//! samples are left out. This ends at a tolerance of a metre or more. Neither the memory nor the page of a long run
+//! then grows much. The page contains the last tolerance.
 
 use lightbots_base::Vec2;
 
@@ -20,7 +21,8 @@ type Sample = (f64, Vec2);
 /// One robot's places over time, simplified while samples are added.
 #[derive(Clone, Debug)]
 pub(crate) struct PlaceTrack {
-    /// Largest distance between a sample that is left out and the line that replaces it, metres.
+    /// Largest distance between a sample that is left out now and the line that replaces it, metres. It doubles with
+    /// each [`Self::thin`].
     tolerance_m: f64,
     kept: Vec<Sample>,
     /// All samples since the last kept sample. The last of them may have to be kept.
@@ -106,7 +108,8 @@ pub struct Scrub {
     pub radius_m: f64,
     /// Duration of the run from the first departure on, seconds.
     pub end_s: f64,
-    /// Largest distance between samples and the lines that replace them, metres.
+    /// Tolerance at which samples were last left out, metres. Lines are off by less than twice this, because samples
+    /// may have been left out several times, each time with twice the tolerance.
     pub tolerance_m: f64,
     /// No-go areas: `[x, y, radius]` for a disc or `[left, bottom, right, top]` for a rectangle, stage metres.
     pub areas: Vec<Vec<f64>>,
@@ -118,12 +121,12 @@ pub struct Scrub {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScrubTrack {
     /// Planned places of the robot. Three numbers per sample: time in 1/100 s after the first departure, x and y in
-    /// millimetres, each minus that of the previous sample.
+    /// millimetres, each minus that of the previous sample. The first sample has the numbers themselves.
     pub planned: Vec<i32>,
     /// Places that the robot reported, or its true places in a rehearsal, as numbers like those of `planned`.
     pub driven: Vec<i32>,
-    /// Changes of the robot's light. Two numbers per change: time in 1/100 s minus that of the previous change, and the new
-    /// colour (R·65536 + G·256 + B).
+    /// Changes of the robot's light. Two numbers per change: time in 1/100 s minus that of the previous change, and the
+    /// new colour (R·65536 + G·256 + B). The time of the first change counts from the first departure.
     pub light: Vec<i64>,
     /// When the robot was lost, 1/100 s after the first departure. `None` if it was not lost, or came back.
     pub lost: Option<i64>,

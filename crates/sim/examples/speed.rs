@@ -10,7 +10,9 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Pixel, Show, Stage};
 use lightbots_sim::{Dice, Progress, Purpose, RehearsalOptions, RehearsalReport, rehearse};
 
+/// Number of frames of a show.
 const FRAMES: u64 = 4;
+/// Least distance between two pixels of a frame, metres.
 const SPACING_M: f64 = 0.0774;
 
 /// Result and times of the rehearsals of one size.

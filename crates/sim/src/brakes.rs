@@ -24,8 +24,7 @@ pub struct BrakeCounts {
     pub unfounded: u64,
 }
 
-/// Counts braking episodes. An episode is classified one step after it began, because a robot's route place is that of
-/// the next step of the world.
+/// Counts braking episodes. [`Self::note`] opens an episode, and the next call of [`Self::classify`] counts it.
 #[derive(Debug)]
 pub(crate) struct Brakes {
     counts: BrakeCounts,
@@ -33,6 +32,7 @@ pub(crate) struct Brakes {
     new_from: Vec<u64>,
     /// Episodes that began and are not classified yet.
     begun: Vec<Brake>,
+    /// Largest distance between centres at which a robot counts as ahead, metres. It includes [`BEYOND_SIGHT_M`].
     sight_m: f64,
 }
 
@@ -64,8 +64,8 @@ impl Brakes {
         self.new_from[robot] = step + FREE_STEPS + 1;
     }
 
-    /// Classifies the episodes that began in the step before. `places[robot]`: centre of the robot now, stage metres.
-    /// `is_amiss(robot, off_m)` returns whether the robot is faulty, or farther than `off_m` from its route.
+    /// Classifies the episodes that were noted since the last call. `places[robot]`: centre of the robot now, stage
+    /// metres. `is_amiss(robot, off_m)` returns whether the robot is faulty, or farther than `off_m` from its route.
     #[inline]
     pub fn classify(&mut self, places: &[Vec2], is_amiss: impl Fn(usize, f64) -> bool) {
         for Brake { robot, towards } in self.begun.drain(..) {
@@ -89,6 +89,7 @@ impl Brakes {
 mod tests {
     use super::*;
 
+    /// Direction from robot 0 to the neighbour for which it brakes.
     const AHEAD: Vec2 = Vec2::new(1.0, 0.0);
 
     #[test]

@@ -28,17 +28,20 @@ pub(crate) enum Fate {
 /// All breakdowns of a rehearsal.
 #[derive(Clone, Debug)]
 pub(crate) struct Breakdowns {
-    /// Index of each affected robot and what happens to it, sorted by the time since the first departure.
+    /// Index of each affected robot and what happens to it, by the time since the first departure.
     coming: Timetable<(usize, Fate)>,
+    /// Indices of the robots that [`Self::count`] counts, each once.
     broke_down: Vec<usize>,
+    /// `[robot]`: whether the robot is muted. This does not end.
     mute: Vec<bool>,
+    /// `[robot]`: whether the robot's link is broken at present.
     cut: Vec<bool>,
 }
 
 impl Breakdowns {
-    /// Makes the breakdowns in `conditions`. A breakdown without a time gets a random time between a tenth and eight
-    /// tenths of `planned_s` after the first departure. `planned_s`: planned duration of the show, seconds. Breakdowns
-    /// whose robot index is `robots` or more are dropped.
+    /// Makes the breakdowns in `conditions`. A breakdown without a robot gets a random robot. A breakdown without a
+    /// time gets a random time between a tenth and eight tenths of `planned_s` after the first departure. `planned_s`:
+    /// planned duration of the show, seconds. Breakdowns whose robot index is `robots` or more are dropped.
     pub fn new(conditions: &Conditions, robots: usize, planned_s: f64, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Breakdowns);
         let mut fate_of = |breakdown: &Breakdown, fate| {
@@ -82,13 +85,13 @@ impl Breakdowns {
         Some((robot, fate))
     }
 
-    /// Whether messages from a robot are lost.
+    /// Whether all messages from the robot are lost at present, because it is muted or its link is broken.
     #[inline]
     pub fn is_mute(&self, robot: usize) -> bool {
         self.mute[robot] || self.cut[robot]
     }
 
-    /// Whether messages to a robot are lost.
+    /// Whether all messages to the robot are lost at present, because its link is broken.
     #[inline]
     pub fn is_deaf(&self, robot: usize) -> bool {
         self.cut[robot]

@@ -34,7 +34,7 @@ pub(crate) struct BrokerOutages {
 
 impl BrokerOutages {
     /// Schedules the outages in `conditions` for `robots` robots. After each absence of the broker, every client
-    /// reconnects at a random time.
+    /// reconnects at a random time within [`RECONNECTS_WITHIN_S`].
     pub fn new(conditions: &Conditions, robots: usize, seed: u64) -> Self {
         let mut dice = Dice::new(seed, Purpose::Broker);
         let freezes = |outage: &Outage| (outage.at, BrokerEvent::Freezes(outage.over));

@@ -20,7 +20,8 @@ pub struct Bumps {
     pub over: u64,
     /// Touches of no-go areas.
     pub obstacles: u64,
-    /// Largest distance by which a robot would have crossed the floor's edge if the edge had not held it back, metres.
+    /// Largest distance by which the edge has pushed a robot back during one contact, metres. It is a sum over the
+    /// steps of the contact.
     pub edge_most_m: f64,
     fresh: Vec<Bump>,
 }
@@ -97,6 +98,7 @@ mod tests {
     use super::*;
     use lightbots_show::{Obstacle, Stage};
 
+    /// The only no-go area.
     const AREA: FloorObject = FloorObject::Obstacle(0);
 
     /// Contacts of a robot that is pressed into things by these depths, metres, and then stands off them by these

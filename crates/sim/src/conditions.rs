@@ -111,9 +111,9 @@ pub struct Outage {
 }
 
 impl Conditions {
-    /// Largest valid slip.
+    /// Largest valid slip, a share of a wheel's turning.
     pub const SLIP_MAX: f64 = 0.5;
-    /// Largest valid delay of a message.
+    /// Largest valid delay of a message in [`LinkConditions`].
     pub const DELAY_MAX: Span = Span::from_millis(5_000);
     /// Largest valid age of a fix.
     pub const FIX_DELAY_MAX: Span = Span::from_millis(1_000);

@@ -94,7 +94,8 @@ impl Contacts {
         &self.fresh
     }
 
-    /// The least distance of two centres until now, metres; `None` if no two robots ever came near each other.
+    /// The least distance of two centres at the ends of steps, metres, before overlapping robots are moved apart. Only
+    /// pairs of the neighbour list are measured. `None` if that list never held a pair.
     pub fn closest_m(&self) -> Option<f64> {
         (self.closest_squared < f64::MAX).then(|| libm::sqrt(self.closest_squared))
     }
@@ -104,7 +105,7 @@ impl Contacts {
         &self.in_sight
     }
 
-    /// Whether no two robots touch.
+    /// Whether no two robots touch. After a touch, a pair still counts as touching until its gap is half a millimetre.
     pub fn none_touching(&self) -> bool {
         self.touching.is_empty() && self.fresh.is_empty()
     }

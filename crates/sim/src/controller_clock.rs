@@ -10,13 +10,13 @@ const BEGINS_US: u64 = 1_800_000_000_000_000;
 /// Differences between the clocks of the controller's computer and virtual time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ControllerClock {
-    /// How far the show clock is ahead of virtual time.
+    /// How far the show clock is ahead of virtual time; negative: behind it.
     ahead: Span,
     /// Sum of the changes that were made to the time of day; negative: it was set back.
     day_ahead: Span,
-    /// Whether the computer tells for how long it has been on, as Linux does. It is never switched off.
+    /// Whether the computer tells for how long it has been on, as Linux does. The computer is never switched off.
     tells_uptime: bool,
-    /// Time at which the computer wakes up. Until then it sleeps.
+    /// Virtual time at which the computer wakes up. Before it, the computer sleeps.
     asleep_until: Instant,
 }
 
@@ -38,7 +38,8 @@ impl ControllerClock {
         if shown == Instant::FAR { shown } else { shown - self.ahead }
     }
 
-    /// Converts the times of an event of the controller from the show clock to virtual time.
+    /// Converts an event's `at` from the show clock to virtual time, and the `starts` of a started transition. Other
+    /// times in the event stay as they are.
     pub fn in_virtual_time(&self, event: Event) -> Event {
         let Event { at, mut kind } = event;
         if let EventKind::TransitionStarted { starts, .. } = &mut kind {

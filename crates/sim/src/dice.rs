@@ -1,4 +1,4 @@
-//! Random numbers. A seed gives the same stream of numbers on every machine.
+//! Random numbers. A seed and a purpose give the same stream of numbers on every machine.
 
 use std::sync::LazyLock;
 
@@ -34,7 +34,7 @@ pub struct Dice {
     state: [u64; 4],
 }
 
-/// Quantiles of the normal distribution at (i + ½) / 4096 for i from 0, scaled to a standard deviation of exactly 1.
+/// Quantiles of the normal distribution at (i + ½) / 4096 for i from 0, scaled to a standard deviation of 1.
 static NORMAL: LazyLock<Box<[f32; NORMAL_LEN]>> = LazyLock::new(normal_table);
 /// Length of [`NORMAL`]. An index takes 12 bits of a draw, and the table 16 KB, half of a first-level cache.
 const NORMAL_LEN: usize = 4096;
@@ -67,12 +67,12 @@ impl Dice {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// Draws a uniformly distributed number from `low` to `high`.
+    /// Draws a uniformly distributed number from `low` (included) to `high` (excluded).
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// Draws a whole number below `end`; 0 if `end` is 0.
+    /// Draws a uniformly distributed whole number from 0 to `end - 1`; 0 if `end` is 0.
     pub fn below(&mut self, end: u64) -> u64 {
         ((u128::from(self.bits()) * u128::from(end)) >> 64) as u64
     }

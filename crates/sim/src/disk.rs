@@ -16,19 +16,23 @@ pub(crate) struct Disk {
     file: Vec<u8>,
     /// Pieces that are being written, in order, each with the time at which it will be on the disk.
     pending: VecDeque<(Instant, JournalPiece)>,
+    /// Pieces that are written before this time are lost, except those that end a run.
     full_until: Instant,
+    /// Pieces that are written before this time reach the disk late, after `takes`.
     slow_until: Instant,
     takes: Span,
+    /// When writing failed; `None`: it did not, or the journal was begun again since.
     failed: Option<Instant>,
 }
 
 impl Disk {
-    /// Makes writing fail until a time.
+    /// Makes the disk full until a time: pieces are lost, except those that end a run.
     pub fn fill(&mut self, until: Instant) {
         self.full_until = self.full_until.max(until);
     }
 
-    /// Makes writing slow until a time: a piece is on the disk only after `takes`.
+    /// Delays each piece that is written before `until`: it is on the disk only after `takes`, and after all earlier
+    /// pieces.
     pub fn slow(&mut self, until: Instant, takes: Span) {
         (self.slow_until, self.takes) = (until, takes);
     }
@@ -39,8 +43,9 @@ impl Disk {
         self.failed.take_if(|failed| now - *failed > TRY_AGAIN).is_some()
     }
 
-    /// Begins to write a piece. If the disk is full, the piece is lost and the disk has failed. The end of a run is no piece
-    /// that is written: it removes the file, which needs no room.
+    /// Begins to write a piece. If the disk is full or has failed, the piece is lost. The disk then counts as failed,
+    /// and a mark in the file tells that the journal is outdated. A piece that ends a run is not lost: it removes the
+    /// file, which needs no room.
     pub fn write(&mut self, now: Instant, piece: JournalPiece) {
         if !piece.ends && (self.failed.is_some() || now < self.full_until) {
             self.failed.get_or_insert(now);
@@ -70,7 +75,8 @@ impl Disk {
     }
 
     /// Applies a crash of the program that writes. If the piece being written is appended, its first half is on the
-    /// disk. If it replaces the file, the old file stays. All later pieces are lost. The disk is then ready again.
+    /// disk. If it replaces the file, the old file stays. All later pieces are lost, and an earlier failure is
+    /// forgotten.
     pub fn crash(&mut self, now: Instant) {
         self.settle(now);
         if let Some((_, torn)) = self.pending.front().filter(|(_, piece)| !piece.begins && !piece.ends) {
@@ -80,7 +86,7 @@ impl Disk {
         self.failed = None;
     }
 
-    /// The bytes of the file.
+    /// The bytes of the file at the last write or crash.
     pub fn file(&self) -> &[u8] {
         &self.file
     }

@@ -34,9 +34,10 @@ pub(crate) struct DriveTrain {
     speed_mps: f64,
     /// Turning rate, rad/s.
     turn_radps: f64,
-    /// Sum of the speed gained beyond [`TIPPING_MPS`] in each step since the body tipped, m/s.
+    /// Sum of the speed gained beyond [`TIPPING_MPS`] in the step in which the body tipped and in the step after it,
+    /// m/s.
     jolt_mps: f64,
-    /// Number of steps since the body tipped over its wheels; 0 if it is not tipped.
+    /// Number of steps since the body tipped over its wheels, with the step in which it tipped; 0 if it is not tipped.
     tipped: u8,
     /// Number of successive steps, up to this one, in which grip limited the braking; 0 again after the fourth.
     sliding: u8,
@@ -136,6 +137,7 @@ impl DriveTrain {
 mod tests {
     use super::*;
 
+    /// Duration of a step, seconds.
     const STEP_S: f64 = 0.016;
 
     /// Speeds and turning rates of the steps in which new rates act, after 50 steps of the old ones.

@@ -31,8 +31,9 @@ struct Tally {
 }
 
 impl ErrorStatistics {
-    /// Samples the tracking error of a robot: its true distance from its place on the route. Call it after the world
-    /// moved and before the robot's step.
+    /// Samples the tracking error of a robot, if it is the robot's turn (see [`EVERY`]) and it is on a route: the
+    /// distance of its true place from its place on the route. Call it after the world moved and before the robot's
+    /// step.
     #[inline]
     pub fn sample_tracking(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) {
@@ -43,8 +44,8 @@ impl ErrorStatistics {
         }
     }
 
-    /// Samples the error of a robot's estimated place: its distance from the true place. Call it after the robot's
-    /// step.
+    /// Samples the error of a robot's estimated place, if it is the robot's turn (see [`EVERY`]), it is on a route and
+    /// it has an estimate: the distance from the true place. Call it after the robot's step.
     #[inline]
     pub fn sample_estimate(&mut self, step: u64, index: usize, robot: &Ours, world: &World) {
         if !(step + index as u64).is_multiple_of(EVERY) || robot.route_place().is_none() {
@@ -56,7 +57,7 @@ impl ErrorStatistics {
     }
 
     /// Samples the largest difference between two show clocks. `shown`: what the robots' show clocks read at one
-    /// moment.
+    /// moment. Without clocks, nothing is sampled.
     pub fn sample_clocks(&mut self, shown: impl Iterator<Item = Instant>) {
         let (first, last, count) = shown
             .fold((Instant::FAR, Instant::ZERO, 0), |(first, last, count), at| {
@@ -98,7 +99,8 @@ impl Tally {
         self.max_m = self.max_m.max(metres);
     }
 
-    /// Median, 99th percentile and maximum. The first two are upper ends of bins, but never more than the maximum.
+    /// Median, 99th percentile and maximum, metres; all 0 without samples. The first two are upper ends of bins, but
+    /// never more than the maximum. Errors beyond the last bin count as its upper end.
     fn spread(&self) -> Spread {
         let rank = |percent: u64| {
             let wanted = (self.count * percent).div_ceil(100);

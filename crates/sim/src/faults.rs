@@ -55,9 +55,9 @@ const MOST: usize = 64;
 
 impl Faults {
     /// Reads faults `name=value` that are separated by commas; at least one. Values carry their unit: `%`, `ms` or `s`,
-    /// `mm`, `cm` or `m`, `deg`, `ppm`; counts have none. Robots are counted from 0. A number after `@` is the time
-    /// after the first departure, one after `+` the duration; both are in seconds if they have no unit. A name may
-    /// occur only once, except for breakdowns and outages.
+    /// `mm`, `cm` or `m`, `deg`, `ppm`; counts have none. `jitter` needs no value. Robots are counted from 0. A number
+    /// after `@` is the time after the first departure, one after `+` the duration; both are in seconds if they have no
+    /// unit. A name may occur only once, except for breakdowns and outages.
     pub fn parse(text: &str) -> Result<Self, FaultsError> {
         let parts: Vec<&str> = text.split(',').map(str::trim).filter(|part| !part.is_empty()).collect();
         if parts.is_empty() {

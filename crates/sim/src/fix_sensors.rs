@@ -71,8 +71,8 @@ impl FixSensors {
         self.plain
     }
 
-    /// The fix that `robot` gets if `pose` is its true pose; `None` if it gets no fix in this step. Call it once a step
-    /// for each robot that has power.
+    /// The fix that `robot` gets if `pose` is its true pose; `None` if it gets no fix in this step. The reason is a
+    /// drop-out, or it is not its turn. Call it once a step for each robot that has power.
     #[inline]
     pub fn fix(&mut self, robot: usize, pose: Pose) -> Option<Pose> {
         if self.plain {

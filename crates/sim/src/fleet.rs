@@ -138,7 +138,8 @@ impl Fleet {
     }
 
     /// Delivers a message from a connection that the robots with indices `sharing` share. A broadcast reaches only
-    /// these robots. Returns whether the message addresses any robot, even if that robot has no power.
+    /// these robots. A robot's own topic reaches that robot, even if it is not one of them. Returns whether the message
+    /// addresses any robot, even if that robot has no power.
     pub fn receive_on(&mut self, now: Instant, sharing: Range<usize>, topic: &str, payload: &[u8]) -> bool {
         let Some(topic) = Topic::parse(topic) else { return false };
         let robots = match topic {

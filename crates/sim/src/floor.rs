@@ -84,7 +84,8 @@ impl Floor {
         }
     }
 
-    /// The place to which a disc whose centre is inside a rectangle is moved: just beyond the nearest side.
+    /// The place to which a disc is moved if its centre is inside a rectangle: there its rim touches the rectangle's
+    /// nearest side from outside.
     fn out_of_rect(&self, place: Vec2, min: Vec2, max: Vec2) -> Vec2 {
         let ways = [
             (place.x - min.x, Vec2::new(min.x - self.radius_m, place.y)),

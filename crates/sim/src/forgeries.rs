@@ -35,8 +35,8 @@ impl Forgeries {
     }
 
     /// Returns the text that a robot sends in place of `text`, which its firmware wrote. The text is the same unless
-    /// the robot lies. If the robot floods the network, the text becomes its last report. Texts on the topic TIME are
-    /// never changed or stored.
+    /// the robot lies and the text is a report with a place. If the robot floods the network, the returned text is
+    /// stored as its last report. Texts on the topic TIME are never changed or stored.
     pub fn forge<'a>(&mut self, robot: usize, topic: Topic, text: &'a [u8]) -> Cow<'a, [u8]> {
         if self.lies.is_empty() && self.floods.is_empty() || topic == Topic::Time {
             return Cow::Borrowed(text);

@@ -9,16 +9,17 @@ use serde::Serialize;
 const IN_TIME: Span = Span::from_millis(25);
 /// Moments at which the colours of the layers are sampled, before (negative) and after now, in quarters of [`IN_TIME`].
 const MOMENTS: [i64; 7] = [-4, -3, -1, 0, 1, 3, 4];
-/// Steps from one comparison to the next. More frequent comparisons would slow rehearsals down.
+/// Steps of 16 ms from one comparison to the next. More frequent comparisons would slow rehearsals down.
 pub(crate) const EVERY: u64 = 10;
 
 /// Results of comparing robots' lights with the colours of layers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct LightCounts {
-    /// Number of comparisons: about every sixth of a second, one for each robot that the layers give a colour.
+    /// Number of comparisons: one about every sixth of a second for each robot that the layers light at all sampled
+    /// times.
     pub compared: u64,
     /// Number of comparisons in which a channel of the light was too far outside the range of that channel in the
-    /// layers' colours. The colours are sampled from 25 ms before to 25 ms after.
+    /// layers' colours. The colours are sampled from 25 ms before the comparison to 25 ms after it.
     pub wrong: u64,
 }
 

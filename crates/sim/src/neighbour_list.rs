@@ -37,7 +37,8 @@ impl NeighbourList {
         &self.pairs
     }
 
-    /// Whether the list is no longer valid, because the disc `index` has moved to `place`.
+    /// Whether the list is no longer valid, because the disc `index` has moved to `place` or was not there when the
+    /// list was made.
     #[inline]
     pub fn outdated_by(&self, index: usize, place: Vec2) -> bool {
         self.then

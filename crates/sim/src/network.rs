@@ -45,10 +45,11 @@ pub(crate) struct NetworkMessage {
 /// Numbers of messages sent and lost. A broadcast counts once for each receiver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct MessageCounts {
-    /// Number of messages sent.
+    /// Number of messages sent. The second copy of a doubled message does not count.
     pub sent: u64,
-    /// Number of these messages that the network lost: at random, because too many were under way, or because the
-    /// broker died. Messages that a robot's broken link or an absent controller swallows do not count.
+    /// Number of messages that the network lost: at random, because too many were under way, or because the broker
+    /// died. In the last case both copies of a doubled message count. Messages that a robot's broken link or an absent
+    /// controller swallows do not count.
     pub lost: u64,
 }
 
@@ -63,7 +64,8 @@ pub(crate) struct Network {
     queue: BinaryHeap<Reverse<(Instant, u64, u32, u32)>>,
     slots: Vec<Option<NetworkMessage>>,
     free: Vec<u32>,
-    /// `[robot]`: when the last message to the robot, and the last one from it, arrives.
+    /// `[robot]`: when the last message to the robot, and the last one from it, arrives. Messages that may be overtaken
+    /// do not count.
     last: Vec<[Instant; 2]>,
     /// The broker passes nothing on until this time.
     frozen_until: Instant,
@@ -87,7 +89,7 @@ impl Network {
         }
     }
 
-    /// Sends a message.
+    /// Sends a message. At random it is lost or doubled; it is also lost if too many messages are under way.
     pub fn send(&mut self, now: Instant, way: Way, topic: Topic, payload: Rc<[u8]>) {
         self.counts.sent += 1;
         let full = self.queue.len() >= UNDER_WAY + UNDER_WAY_PER_ROBOT * self.last.len();

@@ -1,5 +1,5 @@
-//! The simulated operator: presses buttons of the controller. If there was no controller or broker, the operator
-//! presses the button again later.
+//! The simulated operator: presses buttons of the controller. Most operations that find no controller or broker are
+//! tried again later; GO, Go on and the end of an unwanted pause are not stored.
 
 use std::collections::VecDeque;
 

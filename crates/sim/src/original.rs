@@ -15,7 +15,8 @@ const SPIN_RADPS: f64 = 20.0;
 const SPIN_FROM_RAD: f64 = 0.35;
 /// Error of the heading at which a turn on the spot ends, radians.
 const SPIN_TO_RAD: f64 = 0.1;
-/// In a curve, the inner wheel turns slower by this times the error of the heading in radians, rad/s.
+/// In a curve, the inner wheel turns slower by this times the error of the heading in radians, rad/s. It does not turn
+/// backwards.
 const CURVE_RADPS: f64 = 100.0;
 /// Largest number of UUID reports that wait to be sent. Further requests are ignored.
 const WAITING: usize = 16;

@@ -54,7 +54,7 @@ fn lamps_are_sent_corrected_colours_and_snapshots_have_those_of_the_show() {
     cross([[200, 0, 0], [0, 90, 255]], lamp);
 }
 
-/// Robots cross the picture. Each must show the colour of the half that it is on, as its lamp is to be sent it.
+/// Robots cross the picture. Each must show the colour of the half that it is on, corrected for its lamp.
 fn cross(halves: [[u8; 3]; 2], lamp: LampSettings) {
     let show = Arc::new(crossing(halves));
     let [left, right] = halves.map(|[r, g, b]| Rgb::new(r, g, b));
@@ -97,7 +97,7 @@ fn cross(halves: [[u8; 3]; 2], lamp: LampSettings) {
     assert!(is_seen && seen.iter().all(|&count| count > 100), "standing and driving, red and blue: {seen:?}");
 }
 
-/// Whether each channel is as it should be to what the fit of light tracks allows.
+/// Whether no channel differs by more than 8 codes, about what the fit of light tracks allows.
 fn is_about(shown: Rgb, wanted: Rgb) -> bool {
     let channels: [fn(Rgb) -> u8; 3] = [|colour| colour.r, |colour| colour.g, |colour| colour.b];
     channels.iter().all(|channel| channel(shown).abs_diff(channel(wanted)) <= 8)

@@ -104,7 +104,8 @@ impl Play {
         }
     }
 
-    /// Advances virtual time by one step: handles messages and wake-ups, applies what is due, and moves the robots.
+    /// Advances virtual time by one step of 16 ms: handles messages and wake-ups, applies what is due, moves the
+    /// robots.
     fn step(&mut self) {
         let next = self.now + STEP;
         self.pass_time(next);
@@ -179,7 +180,8 @@ impl Play {
         });
     }
 
-    /// Begins the show once all robots are present and know the show clock, or after [`GATHERING`].
+    /// Begins the show once all robots are present and know the show clock, or after [`GATHERING`]. It looks every
+    /// eighth step.
     fn begin(&mut self) {
         if !(self.now.0 / STEP.0 as u64).is_multiple_of(8) {
             return;

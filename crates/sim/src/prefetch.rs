@@ -8,7 +8,8 @@
 #[cfg(target_arch = "x86_64")]
 const LINE_BYTES: usize = 64;
 
-/// Begins to load all cache lines of a value. If the value begins within a line, its last bytes may not be loaded.
+/// Begins to load a value into the cache, line by line. If the value begins within a line, its last bytes may not be
+/// loaded.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn prefetch<T>(value: &T) {

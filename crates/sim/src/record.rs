@@ -102,7 +102,7 @@ impl RehearsalRecord {
     }
 
     /// Time between the first and the last robot's arrival at the current frame. Only the latest arrival of each robot
-    /// counts.
+    /// counts. Zero if no robot has arrived.
     fn arrival_spread(&self) -> Span {
         let first = self.arrivals.iter().flatten().min();
         let last = self.arrivals.iter().flatten().max();

@@ -13,7 +13,8 @@ use crate::report::RehearsalReport;
 use crate::statistics::Spread;
 
 /// Plays a whole show in virtual time and reports the result. The same show, options and version give the same report
-/// to the bit. `progress` is called several times a second of virtual time.
+/// to the bit. `progress` is called while the show is planned and played. A show that cannot be played gives a report
+/// with the reasons in `issues`, and [`RehearsalReport::ok`] is false.
 pub fn rehearse(
     show: &Show,
     options: &RehearsalOptions,
@@ -22,8 +23,8 @@ pub fn rehearse(
     rehearse_with(show, options, None, progress)
 }
 
-/// Plays as [`rehearse`] does, and passes the log of the controller's inputs on as [`Progress::Logged`]. `notes`: pairs
-/// of name and value that are written into the log, for people.
+/// Plays as [`rehearse`] does, and passes the log of the controller's inputs on as [`Progress::Logged`]. A show that is
+/// not played has no log. `notes`: pairs of name and value that are written into the log, for people.
 pub fn rehearse_recorded(
     show: &Show,
     options: &RehearsalOptions,
@@ -80,7 +81,7 @@ fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     names
 }
 
-/// The show's first `robots` starts; rows along the front edge of the floor if the show has fewer starts.
+/// The show's first `robots` starts. If the show has fewer starts: the places of [`front_rows`].
 fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     match &show.starts {
         Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),

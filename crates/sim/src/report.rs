@@ -36,7 +36,8 @@ pub struct RehearsalReport {
     pub replans: usize,
     /// Number of touches of the floor's edge, however light.
     pub wall_contacts: u64,
-    /// Largest distance by which a robot would have crossed the floor's edge if the edge had not held it back, metres.
+    /// Largest distance by which the floor's edge has pushed a robot back during one contact, metres. It is a sum over
+    /// the steps of the contact.
     pub wall_pressed_m: f64,
     /// Number of braking episodes of the safety layers, and of those without a faulty or off-route robot ahead.
     pub brakes: BrakeCounts,
@@ -65,7 +66,8 @@ pub struct RehearsalReport {
     pub dropouts: usize,
     /// The seed: the same show, conditions and seed give the same run.
     pub seed: u64,
-    /// Hash of the whole run, 16 hexadecimal digits: equal runs have equal hashes.
+    /// Hash of the messages that reached the controller and, once a second, of the world's state: 16 hexadecimal
+    /// digits. Equal runs have equal hashes.
     pub state_hash: String,
     /// Speed of the rehearsal as a multiple of real time. The caller fills it in, because this crate reads no clock.
     pub real_time_factor: Option<f64>,
@@ -91,7 +93,7 @@ pub const SHOWN_M: f64 = 0.019;
 /// One frame that robots reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameRecord {
-    /// Its index.
+    /// Its index in the show, counted from 0.
     pub frame: usize,
     /// Its name.
     pub name: String,
@@ -101,8 +103,9 @@ pub struct FrameRecord {
     pub drive_s: f64,
     /// Time between the first and the last robot's arrival at the frame, seconds.
     pub arrival_spread_s: f64,
-    /// Distance of robots from their pixels, metres.
+    /// Distance of robots from their pixels when the frame was reached, metres. If no robot takes part any more:
+    /// distance of each pixel from the nearest robot.
     pub position_error_m: Spread,
-    /// Number of its pixels with a robot within [`SHOWN_M`].
+    /// Number of the distances in [`Self::position_error_m`] that are at most [`SHOWN_M`].
     pub pixels_shown: usize,
 }

@@ -191,7 +191,7 @@ impl RobotSet {
         self.prefetch_state(soon);
     }
 
-    /// Passes the messages that a robot has to send to `receive`.
+    /// Passes the messages that a robot has to send to `receive`. Does nothing if the robot has no power.
     pub fn drain_messages(&mut self, robot: usize, receive: &mut impl FnMut(usize, Topic, &[u8])) {
         if self.alive[robot] {
             self.robots[robot].send_messages(robot, &mut self.payload, receive);

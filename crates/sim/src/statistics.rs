@@ -6,9 +6,9 @@ use serde::Serialize;
 /// Median, 99th percentile (nearest rank) and maximum of numbers; all 0 without numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
-    /// Half of the numbers are at most this.
+    /// At least half of the numbers are at most this.
     pub median: f64,
-    /// 99 of 100 numbers are at most this.
+    /// At least 99 of 100 numbers are at most this.
     pub p99: f64,
     /// The greatest.
     pub max: f64,

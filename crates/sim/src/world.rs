@@ -116,7 +116,8 @@ impl World {
         self.put(self.places.len() - 1, place.unwrap_or_else(|| beside(stage)));
     }
 
-    /// Commands the wheel rates of a robot, left and right, rad/s. They act from the second next step on.
+    /// Commands the wheel rates of a robot, left and right, rad/s. The next step still drives with the old rates; the
+    /// new ones act from the step after it.
     #[inline]
     pub fn command(&mut self, robot: usize, wheels_radps: [f64; 2]) {
         self.axles[robot].commanded = wheels_radps;
@@ -194,7 +195,7 @@ impl World {
         self.proximity.sample(self.contacts.in_sight(), &self.places, &self.contact_states);
     }
 
-    /// Adds the state of the world to a hash.
+    /// Adds the places and headings of all bodies to a hash.
     pub fn imprint(&self, hash: &mut StateHash) {
         for (place, axle) in self.places.iter().zip(&self.axles) {
             hash.number(place.x);

@@ -1,5 +1,6 @@
 use super::*;
 
+/// A pose in the middle of the floor with the front along x.
 const FRONT: Pose = Pose::new(Vec2::ZERO, 0.0);
 
 fn world(starts: &[Pose]) -> World {
@@ -51,7 +52,7 @@ fn head_on_both_stop_dead() {
     assert!(world.contacts().closest_m().unwrap() > 0.054 - 2.0 * 0.0044);
 }
 
-/// A list of pairs that is valid for contacts only hides robots that come near each other from their sensors.
+/// A neighbour list made for the contact distance alone would hide robots from each other's sensors.
 #[test]
 fn robots_that_come_near_each_other_are_in_sight_wherever_they_began() {
     for apart_mm in 90..200 {

@@ -92,8 +92,9 @@ impl Scopes {
         })
     }
 
-    /// The target of an import. In `use plan::plan` the first name is a child module; without one, the name would mean
-    /// the import itself, and the target is `None`.
+    /// The target of the import called `name`, whose path is `path`. If the path begins with `name`, as in `use
+    /// plan::plan`, that first segment must be a child module. Otherwise it would mean the import itself, and the
+    /// target is `None`.
     fn resolve_import<'a>(
         &'a self,
         from: &'a Scope,

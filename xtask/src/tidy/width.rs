@@ -3,7 +3,7 @@
 use super::{files, shown};
 use std::path::Path;
 
-/// Most characters of a line. Code lines with a text in quotes may be longer.
+/// Most characters of a line. Code lines that contain a quote, or end with a backslash or a comma, may be longer.
 const LINE_CHARACTERS_MAX: usize = 125;
 
 /// Every line of Rust and TypeScript that is too long.

@@ -50,7 +50,8 @@ fn only_one(session: &Session) -> Result<RobotId, Ending> {
 }
 
 /// Tests that the robot answers `UUID` on its own topic and on Broadcast, and not on another robot's topic. Then reads
-/// its abilities and position from a report.
+/// its abilities and position from a report, and tests that the position is on the floor. If the robot does not know
+/// its position after [`FIRST_FIX`], marks the rules in [`DRIVING`] as not tried.
 pub(super) async fn introduce(pilot: &mut Pilot) -> Step {
     pilot.rule_if_silent.set(13);
     for (to, sent) in
@@ -92,7 +93,7 @@ async fn answer_once(pilot: &Pilot, to: Addressee, sent: &str) {
                 .map(|received| received.topic.write().to_string())
         });
         let came = elsewhere.map_or_else(|| "silence".into(), |topic| format!("a report on {topic}"));
-        // A robot that is silent on one topic only has not subscribed to it.
+        // A robot that answers on its own topic but not on Broadcast has not subscribed to Broadcast: R5.
         let rule = if to == Addressee::AllRobots && !session.is_broken(13) { 5 } else { 13 };
         return session.record(rule, false, sent, "a report on T/LightBot/UUID at once", came);
     }
@@ -167,7 +168,8 @@ fn on_the_floor(pilot: &mut Pilot, at: Vec2) -> Step {
     Ok(())
 }
 
-/// Unit vector of the direction from `home` in which there is most free floor, before the edge and other robots.
+/// Unit vector of the direction from `home` in which there is most free floor before the edge and other robots. Sixteen
+/// directions are compared, all over the distance [`WAY_M`].
 fn direction(pilot: &Pilot, home: Vec2) -> Vec2 {
     let (width_m, depth_m) = pilot.session.options.floor;
     let others: Vec<Vec2> =

@@ -8,10 +8,13 @@ use super::pilot::{ANSWER, Pilot};
 use crate::received::Received;
 use crate::sight::Sight;
 
+/// Red alone.
 const RED: Rgb = Rgb::new(255, 0, 0);
+/// Green alone.
 const GREEN: Rgb = Rgb::new(0, 255, 0);
+/// Blue alone.
 const BLUE: Rgb = Rgb::new(0, 0, 255);
-/// A stretch that begins this long after now never plays, because the exam is over before.
+/// A stretch that begins this long after it was sent never plays, because the exam is over before.
 const NEVER: Span = Span::from_millis(3_000_000);
 
 /// Tests stretches of light. The robot must be synchronised with the show clock.

@@ -9,8 +9,11 @@ use crate::received::Received;
 use crate::session::Addressee;
 use crate::sight::Sight;
 
+/// Red alone.
 const RED: Rgb = Rgb::new(255, 0, 0);
+/// Green alone.
 const GREEN: Rgb = Rgb::new(0, 255, 0);
+/// Blue alone.
 const BLUE: Rgb = Rgb::new(0, 0, 255);
 /// Slots that the robot is given one after the other: first the largest possible slot, then slot 100, which it keeps.
 const SLOTS: [u16; 2] = [65_535, 100];

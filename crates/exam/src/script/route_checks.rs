@@ -50,7 +50,8 @@ pub(super) fn record_beside(pilot: &Pilot, rule: u8, fit: &Fit, sent: &str, expe
     pilot.session.record(rule, fit.reports > 0 && fit.beside_m <= BESIDE_M, sent, expected, came);
 }
 
-/// Tests that exactly one arrival is reported, at the end of the route, with the route's number.
+/// Tests that exactly one arrival is reported, at the end of the route, with the route's number. It must not be early,
+/// unless the route was held or the robot's clock is known to be wrong (R27).
 pub(super) async fn arrives(pilot: &Pilot, timed_route: &TimedRoute, mark: usize) {
     let seq = u64::from(timed_route.route.seq);
     let end = timed_route.path().end();

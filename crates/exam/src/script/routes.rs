@@ -48,8 +48,8 @@ fn status(received: &Received) -> Option<Received> {
     (received.topic == Topic::Status).then(|| received.clone())
 }
 
-/// Sends a route. Returns whether the robot reports that it keeps the route, and records this for R32, or for R31 if
-/// that is broken already.
+/// Sends a route. Returns whether the robot reports that it keeps the route, and records this for R32. A refusal of a
+/// route with several kinds of pieces is recorded for R31 instead, if R31 is broken already.
 pub(super) async fn keep(pilot: &Pilot, route: &Route) -> bool {
     let sent = text(route);
     let wanted = u64::from(route.seq);
@@ -164,7 +164,8 @@ async fn refuses(pilot: &Pilot, route: &Route) {
 }
 
 /// Sends four `START` commands: a first one, a later one, an earlier one, and one for another route. Stops at the first
-/// wrong answer. Returns the start moment that the robot reported last.
+/// wrong answer. Returns the start moment that the robot reported last, on the show clock; without a report, that of
+/// the first `START`.
 async fn moved_start(pilot: &Pilot) -> Instant {
     let seq = pilot.seq.get();
     let first = pilot.session.show() + LEAD;
@@ -189,7 +190,8 @@ async fn moved_start(pilot: &Pilot) -> Instant {
     Instant(goes_by)
 }
 
-/// Tests that the robot, before it leaves, has turned so that it faces along its path or the opposite way.
+/// Tests that the robot, before it leaves, has turned so that it faces along its path or the opposite way. Does nothing
+/// if the robot reports no heading.
 async fn towards_the_way(pilot: &Pilot, from: Vec2, to: Vec2) -> Step {
     let heading = pilot.ask().await?.field("h").and_then(|text| text.parse::<f64>().ok());
     if let Some(heading) = heading {

@@ -72,7 +72,8 @@ fn is_cut(received: &Received) -> bool {
     received.topic == Topic::Status && received.field("state") == Some("cut")
 }
 
-/// Tests that the robot asks for the time while no message comes. `began`: when the silence began.
+/// Tests that the robot asks for the time while no message comes: at least three times from 0.9 to 2.2 s after `began`,
+/// the moment when the silence began.
 fn asks_in_silence(pilot: &Pilot, mark: usize, began: Instant) {
     let count = pilot.session.since(mark, |received| {
         let asked = received

@@ -131,7 +131,8 @@ async fn replaced(pilot: &Pilot) -> Step {
     Ok(())
 }
 
-/// Tests that an invalid target stops the robot.
+/// Tests that an invalid target stops the robot. A robot without routes that drives on does not break the rule: it
+/// lacks this ability.
 async fn no_place(pilot: &Pilot) -> Step {
     pilot.drive_to(pilot.home).await?;
     pilot.send(target(pilot.away));

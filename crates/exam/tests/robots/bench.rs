@@ -39,7 +39,7 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// An exam with one robot in the middle of the front edge and further robots beside it.
+    /// An exam with one robot in the middle of the edge where y is largest, and further robots beside it.
     pub fn new(robots: usize, flaw: impl Flaw + 'static, options: Options) -> Self {
         let starts = (0..robots).map(|index| Vec2::new(0.1 * index as f64, 1.3)).collect();
         let config =

@@ -16,13 +16,13 @@ pub enum Coordinate {
     Line,
     /// Distance of the robot from the effect's place, divided by the effect's size.
     Distance,
-    /// Angle of the robot around the effect's place, counter-clockwise from the effect's direction, as a share of a whole
-    /// turn, 0 to 1.
+    /// Angle of the robot around the effect's place, counter-clockwise from the effect's direction, as a share of a
+    /// whole turn: 0 (included) to 1 (excluded).
     Angle,
     /// Number of the robot, counted from 0, divided by the number of all robots.
     Order,
-    /// Position of the polyline's point that is nearest to the robot: the share of the polyline's length before the point,
-    /// 0 to 1. The corners are in stage metres.
+    /// Position of the polyline's point that is nearest to the robot: the share of the polyline's length before the
+    /// point, 0 to 1; 0 if the polyline has no length. The corners are in stage metres.
     Curve(Vec<Vec2>),
 }
 

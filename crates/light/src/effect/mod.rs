@@ -28,14 +28,14 @@ pub enum LightEffect {
     Pulse,
     /// All robots switch between the last and the first colour of the palette.
     Strobe,
-    /// In each cycle, a random share of the robots glows up and fades, each robot at its own moment.
+    /// Random robots glow up and fade in each cycle, each robot at its own moment. Each cycle draws them anew.
     Twinkle {
-        /// Share of the robots that glow up in a cycle, 0 to 1.
+        /// Probability that a robot glows up in a cycle, 0 to 1.
         density: f64,
     },
-    /// A random share of the robots is lit for a whole cycle. Each cycle has other robots.
+    /// Random robots are lit for a whole cycle. Each cycle draws them anew.
     Sparkle {
-        /// Share of the robots that are lit, 0 to 1.
+        /// Probability that a robot is lit in a cycle, 0 to 1.
         density: f64,
     },
     /// All hues along a coordinate. With time, the hues move along the coordinate.

@@ -8,12 +8,15 @@ use lightbots_light::{
 };
 use lightbots_lighting::{LightFit, Tolerance, fit};
 
+/// Number of columns of robots.
 const COLUMNS: u32 = 40;
+/// Number of rows of robots.
 const ROWS: u32 = 25;
 /// Distance between the numbers of two robots that are fitted.
 const EVERY: usize = 100;
-/// Duration of a stretch, ticks. `STRETCHES` is the number of stretches.
+/// Duration of a stretch, ticks of 10 ms.
 const STRETCH: u32 = 1_000;
+/// Number of stretches that are fitted for each robot.
 const STRETCHES: u32 = 3;
 
 /// The effects, each with two colours or a hue.

@@ -16,6 +16,7 @@ use lightbots_exchange::LIGHTBOTS;
 use lightbots_show::{Issue, Show};
 use lightbots_sim::{RehearsalOptions, RehearsalReport, rehearse};
 
+/// Largest number of robots on a floor. More robots make each rehearsal take longer.
 const ROBOTS: u64 = 60;
 const USAGE: &str = "usage: floors [COUNT [FIRST [FAULTS [DIR]]]]";
 

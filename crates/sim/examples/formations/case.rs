@@ -11,7 +11,9 @@ use super::shapes::{Shape, bounds};
 pub const COUNTS: [usize; 4] = [30, 100, 200, 400];
 /// The least spacing, metres. Each of the `SPACINGS` spacings is half a millimetre wider than the one before.
 const SPACING_MIN_M: f64 = 0.06;
+/// Number of spacings: from [`SPACING_MIN_M`] to 0.12 m.
 const SPACINGS: usize = 121;
+/// Difference between two successive spacings, metres.
 const SPACING_STEP_M: f64 = 0.0005;
 /// How many cases there are.
 pub const CASES: usize = Shape::ALL.len() * COUNTS.len() * SPACINGS * 2;
@@ -31,7 +33,7 @@ pub enum Place {
     Far,
 }
 
-/// One formation, to which robots drive from the usual rows at the front edge.
+/// One formation, to which robots drive from the rows of [`front_rows`].
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Its number, less than [`CASES`].

@@ -12,6 +12,7 @@ use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, Sprea
 
 /// Thirty robots in pictures of words: close side by side, with long drives between.
 const SHOW: &[u8] = include_bytes!("../../../../shows/hello.json");
+/// Number of seeds with which each trouble is rehearsed.
 const SEEDS: u64 = 3;
 /// Widths of gaps that eight robots drive through, millimetres. The planner needs at least 60.2.
 const GAPS_MM: [f64; 4] = [60.5, 61.0, 65.0, 70.0];

@@ -3,7 +3,8 @@
 use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Obstacle, Pixel, Show, Stage};
 
-/// A show of eight robots that drive from the front edge through a gap in a wall to a ring around the middle.
+/// A show of eight robots that drive from the edge where y is largest through a gap in a wall to a ring around the
+/// middle. `wide_m`: width of the gap, metres.
 pub fn gap(wide_m: f64) -> Show {
     queue(8, 0.5, wide_m)
 }

@@ -13,6 +13,7 @@ use std::process::ExitCode;
 
 use lightbots_sim::{RehearsalOptions, rehearse};
 
+/// Largest number of robots of a pair. More robots make each rehearsal take longer.
 const ROBOTS: u64 = 200;
 const USAGE: &str = "\
 usage: pairs [COUNT [FIRST [FAULTS]]]

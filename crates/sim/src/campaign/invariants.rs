@@ -13,19 +13,20 @@ use crate::mishap::Mishap;
 use crate::robot_set::RobotSet;
 
 /// Time after which a robot must stand still (R40 and R43 of docs/protocol.md). It counts from Stop, from the end of
-/// the run, or from the last message that the robot received. A robot that receives nothing stops after 2 s, and brakes
-/// within 0.1 s.
+/// the run, or from the last message that the robot received. A robot with a route that receives nothing brakes after
+/// 1.9 s and stands within 2.2 s.
 const RESTS_AFTER: Span = Span::from_millis(2_200);
 /// When a run is over, checks go on for this long after the time [`Invariants::stopped`].
 const WATCHED: Span = Span::from_millis(3_500);
 /// Time since a broken robot's dropout after which a contact with it is a violation, because other robots must drive
-/// around it. Before, all robots are held (within 0.6 s) and get new plans.
+/// around it. Until then, all robots are held (within 0.6 s) and get new plans.
 const KNOWN_AFTER: Span = Span::from_millis(1_000);
 /// Time since a robot was put down elsewhere, began or ceased to report a false place, or a foot was put on the floor.
 /// After this time a contact with the robot or foot is a violation. The moved robot notices within 0.3 s (R47) and
 /// reports, and all robots are held within 0.6 s. Messages may be late and lost.
 const EXPECTED_AFTER: Span = Span::from_millis(1_500);
-/// Gap between the rims of two robots from which an excused contact has ended, metres.
+/// An excused contact has ended when the gap between the two rims is at least this, metres. A contact of the same pair
+/// before that end is excused, too.
 const APART_M: f64 = 0.01;
 /// Time since a run was lost after which every route of the run has ended.
 const ROUTE_ENDS: Span = Span::from_millis(30_000);
@@ -78,20 +79,20 @@ pub(crate) struct Invariants {
     robots: Vec<Watched>,
     /// When the show must be over at the latest.
     limit: Instant,
-    /// Index of the frame that robots reached last; `None`: none yet. After a jump of the operator: of the frame before
-    /// the chosen frame.
+    /// Index of the frame that robots reached last. After a jump of the operator: of the frame before the chosen frame.
+    /// `None`: no frame yet, or the operator chose the first frame.
     reached: Option<usize>,
     /// Indices of frames that robots need not reach. No plan to such a frame was found, or it was skipped or left out
     /// to keep up with the music.
     given_up: Vec<usize>,
-    /// The first and the last frame of the latest loop.
+    /// Indices of the first and the last frame of the latest loop; `None`: no loop has begun yet.
     repeats: Option<(usize, usize)>,
     /// When a person last put a foot on the floor, or left.
     stepped: Option<Instant>,
     /// Whether the journal may be older than the run, because the disk was full or slow.
     is_journal_old: bool,
-    /// Since when robots must rest: all were stopped, or the run ended. If the run was lost: when its routes have
-    /// ended.
+    /// Since when robots must rest: all were stopped, or the run ended. If the run was lost: the time at which its
+    /// routes have ended. `None`: neither has happened in this run.
     stopped: Option<Instant>,
     is_over: bool,
     /// Pairs of robots, or of a robot and the foot, whose contact was excused and that have not parted.
@@ -229,8 +230,8 @@ impl Invariants {
         }
     }
 
-    /// Notes that a robot dropped out, and checks that it had a reason. Always a reason, because other robots may cause
-    /// it: the robot is late, blocked, unsure of its place, or missed its goal.
+    /// Notes that a robot dropped out. A dropout without a reason is a violation. If the robot is late, blocked, unsure
+    /// of its place, or missed its goal, that is always reason enough, because other robots may cause it.
     fn dropped_out(&mut self, now: Instant, robot: usize, why: Trouble) {
         self.robots[robot].out = Some(now);
         let by_others = matches!(why, Trouble::Late | Trouble::Blocked | Trouble::Missed | Trouble::Unsure);
@@ -243,8 +244,9 @@ impl Invariants {
         }
     }
 
-    /// Notes a reached frame, and checks the order: each frame once, and none left out except those in `given_up`. Only
-    /// a loop goes back, from its last frame to its first. An old journal excuses any order.
+    /// Notes a reached frame, and checks that it is the one after the last reached frame. Frames in `given_up` may be
+    /// missing in between. After the last frame of a loop, the loop's first frame must follow. An old journal excuses
+    /// any order.
     fn frame_stands(&mut self, now: Instant, frame: usize) {
         let goes_back =
             self.repeats.is_some_and(|(first, last)| self.reached == Some(last) && frame == first);

@@ -6,7 +6,7 @@ use lightbots_base::{Instant, Span, Vec2};
 use crate::robot_set::RobotSet;
 
 /// Time that a dropped-out robot must have stood still before a route through it is reported. Until then, all robots
-/// are held (within 0.6 s) and planned again, and a robot that misses these messages stops after 2 s (R43).
+/// are held (within 0.6 s) and planned again. A robot that receives nothing stands within 2.2 s (R43).
 const AROUND_AFTER: Span = Span::from_millis(3_000);
 /// A robot that is farther than this from the place where it first stood does not stand still, metres.
 const STILL_M: f64 = 0.005;

@@ -5,7 +5,7 @@ use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
 
 use crate::dice::{Dice, Purpose};
 
-/// Smallest and largest number of robots.
+/// Smallest and largest number of robots that a seed chooses.
 const ROBOTS: (usize, usize) = (10, 100);
 /// Least duration of a show, seconds. Frames are added until the sum of air times and estimated drives is this long.
 const SHOW_S: f64 = 20.0;

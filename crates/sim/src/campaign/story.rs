@@ -29,15 +29,15 @@ const FURTHER_FROM: u64 = 1_000;
 const PEOPLE_FROM: u64 = 2_000;
 /// Share of the stories from [`PEOPLE_FROM`] on that have a person on the floor.
 const PEOPLE: f64 = 0.5;
-/// From this seed on, a fault of the controller's clocks is drawn for each story, and outages of the broker may
-/// overlap.
+/// From this seed on, a fault of the controller's clocks is drawn for each story. Outages of the broker may then
+/// overlap, unless the broker is gone in both.
 const CLOCKS_FROM: u64 = 3_000;
 /// Largest change of the time of day, forwards or back, seconds. The first value is for the share [`SHORT`] of the
 /// changes, the second for the others.
 const SET_S: (f64, f64) = (6.0, 7_200.0);
 /// Smallest and largest error of a falsely reported place, metres.
 const LIE_M: (f64, f64) = (0.05, 0.5);
-/// Shortest and longest time until a slow disk has written a piece, seconds.
+/// Shortest and longest time until a slow disk has written a piece of the journal, seconds.
 const DISK_S: (f64, f64) = (0.05, 3.0);
 /// Share of the stories whose messages may be late, lost, doubled or overtaken.
 const BAD_LINK: f64 = 0.6;

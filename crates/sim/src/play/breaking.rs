@@ -89,7 +89,8 @@ impl Play {
     }
 
     /// Lets the operator act: repeat operations, give GO, resume a paused show, and press Go on. The operator gives GO
-    /// to a frame that is ready for it, and in the last round of a loop.
+    /// to a frame that is ready for it, and in the last round of a loop. While the controller's computer sleeps,
+    /// nothing happens.
     pub(super) fn press(&mut self) {
         if self.clock.is_asleep(self.now) {
             return;

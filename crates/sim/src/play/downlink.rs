@@ -48,7 +48,8 @@ impl Play {
         self.write_journal();
     }
 
-    /// Writes the new piece of the journal, if there is one.
+    /// Writes the new piece of the journal, if there is one. Some time after a failure of the disk, the journal is
+    /// first begun again.
     fn write_journal(&mut self) {
         if self.crashes.disk.begins_again(self.now) {
             self.controller.begin_journal_again();

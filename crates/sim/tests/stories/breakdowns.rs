@@ -4,6 +4,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{BrakeCounts, Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
+/// Number of robots, and of pixels in each frame.
 const ROBOTS: u32 = 16;
 
 /// A show of a line with 100 mm spacing, a block with 85 mm and a diagonal with 93 mm. Robots follow each other

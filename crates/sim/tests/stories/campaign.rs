@@ -91,7 +91,8 @@ const FAILED: [(u64, Option<usize>); 49] = [
     // Robots that lacked a clock when the broker froze, or whose clock was set anew, dropped out.
     (4_368, None),
     (5_545, None),
-    // A silent robot was looked for where it last reported, not on its path, in the leg of the journal, or in the frame.
+    // A silent robot was looked for only where it last reported. It may also be on its path, on the journal's drive, or
+    // in the frame.
     (8_125, None),
     (6_066, None),
     (3_919, None),

@@ -5,8 +5,9 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
-/// Number of robots of a random crowd. Their pixels are `APART_M` apart or more, metres.
+/// Number of robots of a random crowd.
 const ROBOTS: u32 = 30;
+/// Least distance between two pixels of a random crowd, metres.
 const APART_M: f64 = 0.08;
 
 /// The example show that mixes rows, rings and grids with fixed identity.

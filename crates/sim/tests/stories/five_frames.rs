@@ -4,6 +4,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
+/// Number of frames of the show.
 pub const FRAMES: usize = 5;
 
 /// Five frames of `count` robots.

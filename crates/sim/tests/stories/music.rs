@@ -4,7 +4,9 @@ use crate::five_frames::{FRAMES, play, show};
 use lightbots_show::Show;
 use lightbots_sim::{Conditions, RehearsalReport};
 
+/// Number of robots of the show.
 const ROBOTS: u32 = 12;
+/// Air time of each frame, seconds. In it, late robots can catch up.
 const AIR_S: f64 = 3.0;
 
 fn with_music() -> Show {

@@ -5,6 +5,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Pixel, Show};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
+/// Number of robots of the show, and of pixels in each frame.
 const ROBOTS: u32 = 30;
 
 /// A show as dense as the original's, whose closest pixels are 84 mm apart. Its frames are a row, two lines, a block at

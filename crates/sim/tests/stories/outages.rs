@@ -5,7 +5,9 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Easing, Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
+/// Number of robots of the show, and of pixels in each frame.
 const ROBOTS: u32 = 8;
+/// Number of frames of the show.
 const FRAMES: usize = 5;
 
 /// A show whose row of robots moves to and fro by half a metre, with two seconds of air time.

@@ -6,11 +6,15 @@ use lightbots_sim::{Dice, Purpose, World};
 use rapier2d::prelude as rapier;
 use rapier2d::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
 
+/// Radius of a disc in the engine, metres: that of a robot.
 const RADIUS_M: f64 = 0.027;
+/// Distance of two centres at which discs touch, metres.
 const CONTACT_M: f64 = 2.0 * RADIUS_M;
 /// Gap between rims at which grazing discs slide past each other in the engine, metres.
 const HAIR_M: f64 = 0.001;
+/// Wheel rate of all robots, rad/s.
 const WHEELS_RADPS: f64 = 60.0;
+/// Speed of a robot at [`WHEELS_RADPS`], m/s. The engine's discs are driven with it.
 const SPEED_MPS: f64 = 0.27;
 
 /// The same discs in both worlds, driven at full speed along their headings.

@@ -4,6 +4,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_show::{Frame, Identity, Pixel, Show, Stage};
 use lightbots_sim::{Conditions, Faults, RehearsalOptions, RehearsalReport, rehearse};
 
+/// Number of pixels in each frame.
 const PIXELS: u32 = 12;
 
 /// A show with spare robots: a row, a ring and a row again.
