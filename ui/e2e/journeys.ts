@@ -18,7 +18,7 @@ export function smallShow(count: number, air_s = 0.3): string {
   return JSON.stringify({ lightbots: 1, name: '', stage: { width_m: 3, depth_m: 3 }, frames });
 }
 
-/** Begins a show with nothing in it but the robots at the front edge. */
+/** Begins a show with nothing in it but the robots at the back edge. */
 export async function beginEmpty(page: Page): Promise<void> {
   await button(page, 'New').click();
   await button(page, 'Empty show').click();

@@ -27,7 +27,7 @@ test('a show that is stopped says where on every screen, and plays on from there
   await eventually(
     () => robotPlaces(page),
     (places) => places.length === 4 && places.every(([, y]) => Math.abs(y - 1.3) < 0.03),
-    'all robots stand in the row at the front edge',
+    'all robots stand in the row at the back edge',
   );
   await button(page, 'Play').click();
   await page.getByText('Playing frame 1 of 2').waitFor();

@@ -25,7 +25,7 @@ pub struct ShowDocument {
     pub stage: Option<DocumentStage>,
     /// Whether pixels with equal ids in different frames are shown by one robot.
     pub identity: Option<DocumentIdentity>,
-    /// Places of the robots before the first frame; if absent, rows along the front edge.
+    /// Places of the robots before the first frame; if absent, rows along the back edge.
     pub starts: Option<Vec<DocumentPlace>>,
     /// File name of the music.
     pub music: Option<String>,

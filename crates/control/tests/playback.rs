@@ -453,7 +453,7 @@ fn all_robots_drive_home_and_the_show_stays_open() {
     assert!(world.controller.snapshot(world.now).run.is_some_and(|run| run.home));
     assert_eq!(world.run_to_end(60.0), (RunOutcome::Finished, 1, 0), "{}", world.story());
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
-    let rows = lightbots_show::front_rows(&show.stage, 11);
+    let rows = lightbots_show::back_rows(&show.stage, 11);
     let is_home = |at: Vec2| rows.iter().any(|place| place.distance(at) < 0.02);
     assert!(world.robots.iter().all(|robot| is_home(robot.at)), "{}", world.story());
     assert!(!starts.iter().all(|at| is_home(*at)), "they began elsewhere");

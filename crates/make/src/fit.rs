@@ -62,7 +62,7 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
     }
     if let Some(starts) = show.starts.take_if(|starts| starts.len() != robots) {
         let what = format!(
-            "the show said where {} robots start; {robots} robots start in rows at the front edge",
+            "the show said where {} robots start; {robots} robots start in rows at the back edge",
             starts.len()
         );
         notes.push(Note::new("starts-dropped", what));

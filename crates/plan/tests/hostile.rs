@@ -7,7 +7,7 @@ use lightbots_base::{Limits, Rgb, Vec2};
 use lightbots_exchange::{FORMATS, read};
 use lightbots_plan::{ShowOptions, TransitionProblem, show_unless, transition_unless};
 use lightbots_show::{
-    Easing, Frame, Identity, Issue, Obstacle, Pixel, Show, Stage, front_rows, robots_needed, validate,
+    Easing, Frame, Identity, Issue, Obstacle, Pixel, Show, Stage, back_rows, robots_needed, validate,
 };
 
 /// Replacements for the numbers of a file.
@@ -67,7 +67,7 @@ type Change<'a> = &'a dyn Fn(&mut Show);
 /// Validates and plans a show as the program does. Returns whether it is valid.
 fn take(show: &Show, what: &str) -> bool {
     let issues = validate(show);
-    let starts = show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show).min(100)));
+    let starts = show.starts.clone().unwrap_or_else(|| back_rows(&show.stage, robots_needed(show).min(100)));
     let asked = Cell::new(0);
     let is_wanted = || {
         asked.set(asked.get() + 1);

@@ -288,7 +288,7 @@ pub struct RobotsArguments {
     /// Width and depth of the floor in metres; with `--start rows`, the robots stand in its front rows
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
-    /// Where the robots stand at first: `rows` along the front edge, a SHOW's first frame, or one place X,Y in metres for
+    /// Where the robots stand at first: `rows` along the back edge, a SHOW's first frame, or one place X,Y in metres for
     /// each robot. Places are separated by blanks; may be repeated
     #[arg(long, value_name = "WHERE", allow_hyphen_values = true, default_value = "rows")]
     pub start: Vec<String>,

@@ -1,7 +1,7 @@
 //! The show document that people draw: the model in memory and its validation.
 //!
 //! The crate does no IO, and knows nothing of plans, messages and file formats. In reading order: [`Show`] is the
-//! document, [`validate()`] gives [`Issues`] of a document, [`front_rows`] gives places where robots wait before the
+//! document, [`validate()`] gives [`Issues`] of a document, [`back_rows`] gives places where robots wait before the
 //! first frame. `lightbots-exchange` reads and writes files.
 //!
 //! ```
@@ -12,7 +12,6 @@
 
 mod asset;
 mod frame_loop;
-mod front;
 mod issue;
 mod label;
 mod layer_picture;
@@ -24,12 +23,12 @@ mod setting_tokens;
 mod slow;
 mod source;
 mod spacing;
+mod starting_places;
 mod timeline;
 mod validate;
 
 pub use asset::{Asset, AssetHash, Assets};
 pub use frame_loop::{FrameLoop, frame_loops};
-pub use front::{front_rows, starting_places};
 pub use issue::{Issue, Issues, Severity};
 pub use label::{clock_label, excerpt, frame_label};
 pub use layer_picture::LayerPicture;
@@ -40,6 +39,7 @@ pub use setting::{NamedSettings, Setting, setting};
 pub use slow::{SPEED_MIN_PERCENT, slowed};
 pub use source::{FloorBox, FrameSource, SourceKind, SourcePart};
 pub use spacing::{CloseApproach, close_pairs};
+pub use starting_places::{back_rows, starting_places};
 pub use timeline::{
     BeatGrid, Beats, Cue, CuePlace, FramePhase, Layer, LayerSpan, Marker, Section, Trajectory,
     TrajectoryPiece,

@@ -17,7 +17,7 @@ pub struct Show {
     pub stage: Stage,
     /// Whether a pixel id is shown by the same robot in all frames. A frame's own [`Frame::identity`] overrides it.
     pub identity: Identity,
-    /// Places of the robots before the first frame, stage metres; `None`: rows along the front edge, where y is largest.
+    /// Places of the robots before the first frame, stage metres; `None`: rows along the back edge, where y is largest.
     pub starts: Option<Vec<Vec2>>,
     /// File name of the music; `None`: the show has no music.
     pub music: Option<String>,

@@ -7,7 +7,7 @@ use lightbots_base::{Rgb, Vec2};
 use lightbots_control::{Config, Controller, RecordedController};
 use lightbots_lighting::LampSettings;
 use lightbots_show::{
-    Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show, front_rows,
+    Asset, AssetHash, Frame, Layer, LayerPicture, LayerSpan, Pixel, Setting, Show, back_rows,
 };
 use std::sync::Arc;
 
@@ -58,7 +58,7 @@ fn lamps_are_sent_corrected_colours_and_snapshots_have_those_of_the_show() {
 fn cross(halves: [[u8; 3]; 2], lamp: LampSettings) {
     let show = Arc::new(crossing(halves));
     let [left, right] = halves.map(|[r, g, b]| Rgb::new(r, g, b));
-    let starts = front_rows(&show.stage, 8);
+    let starts = back_rows(&show.stage, 8);
     let options = RehearsalOptions { seed: 5, conditions: Conditions::default(), robots: None };
     let mut play = Play::new(show, &starts, &[], &options, 30.0);
     play.controller = RecordedController::new(Controller::new(Config { lamp, ..Config::default() }));

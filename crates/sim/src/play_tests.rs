@@ -5,14 +5,14 @@ use crate::conditions::Conditions;
 use crate::faults::Faults;
 use crate::options::RehearsalOptions;
 use lightbots_base::Rgb;
-use lightbots_show::{Cue, CuePlace, Layer, LayerSpan, Setting, front_rows};
+use lightbots_show::{Cue, CuePlace, Layer, LayerSpan, Setting, back_rows};
 use std::sync::Arc;
 
 #[test]
 fn robots_that_take_turns_there_and_back_play_the_same_to_the_bit() {
     let show =
         Arc::new(lightbots_exchange::read(include_bytes!("../../../shows/hello.json"), None).unwrap().show);
-    let starts = front_rows(&show.stage, 30);
+    let starts = back_rows(&show.stage, 30);
     for faults in ["kill=random", "slip=10%,gps=5mm", "fix-dropout=0.5s"] {
         let conditions = Faults::parse(faults).unwrap().added_to(Conditions::default());
         let options = RehearsalOptions { seed: 3, conditions, robots: None };
@@ -38,7 +38,7 @@ fn largest_change(faults: &str, seed: u64) -> (u8, f64) {
     let conditions = Conditions { go_after: Span::from_millis(9_000), ..Conditions::default() };
     let conditions = Faults::parse(faults).unwrap().added_to(conditions);
     let options = RehearsalOptions { seed, conditions, robots: None };
-    let starts = front_rows(&show.stage, 30);
+    let starts = back_rows(&show.stage, 30);
     let mut play = Play::new(Arc::new(show), &starts, &[], &options, 30.0);
     play.switch_on(None);
     let (mut most, mut waited_s, mut before) = (0, 0.0, None::<Vec<Rgb>>);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lightbots_base::{RobotId, Vec2};
 use lightbots_plan::{ShowOptions, ShowPlan};
-use lightbots_show::{Issue, Show, front_rows, robots_needed};
+use lightbots_show::{Issue, Show, back_rows, robots_needed};
 
 use crate::light_watch::LightCounts;
 use crate::options::{Progress, ROBOTS_MAX, RehearsalOptions};
@@ -81,11 +81,11 @@ fn names(plan: &ShowPlan, robots: usize) -> Vec<Option<RobotId>> {
     names
 }
 
-/// The show's first `robots` starts. If the show has fewer starts: the places of [`front_rows`].
+/// The show's first `robots` starts. If the show has fewer starts: the places of [`back_rows`].
 fn starts(show: &Show, robots: usize) -> Vec<Vec2> {
     match &show.starts {
         Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
-        _ => front_rows(&show.stage, robots),
+        _ => back_rows(&show.stage, robots),
     }
 }
 

@@ -4,7 +4,7 @@ import { keepLayersInFrames } from './layers';
 import type { Point } from '../base/geometry';
 import { mix, type Rgb } from '../base/colour';
 import type { FrameSource } from './sources';
-import { frontRows, newFrame, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
+import { backRows, newFrame, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
 
 /** Changes of a show: pure functions that return the same show when nothing changes. */
 
@@ -209,9 +209,9 @@ export function setSpares(show: Show, count: number): Show {
   return { ...show, rest: count > 0 ? { ...rest, spares: count } : rest };
 }
 
-/** Gives every frame `count` pixels: removes the highest ids, adds new pixels in rows at the front edge. */
+/** Gives every frame `count` pixels: removes the highest ids, adds new pixels in rows at the back edge. */
 export function setFleetSize(show: Show, count: number, color: Rgb): Show {
-  const rows = frontRows(show.stage, count, color);
+  const rows = backRows(show.stage, count, color);
   const frames = show.frames.map((frame) => {
     if (frame.pixels.length >= count) return { ...frame, pixels: frame.pixels.slice(0, count) };
     const taken = new Set(frame.pixels.map((p) => p.id));

@@ -86,8 +86,8 @@ export const EMPTY_STAGE: Stage = {
   rest: {},
 };
 
-/** `count` pixels in rows along the front edge, 0.1 m apart, as a rehearsal's robots stand. */
-export function frontRows(stage: Stage, count: number, color: Rgb): Pixel[] {
+/** `count` pixels in rows along the back edge, 0.1 m apart, as a rehearsal's robots stand. */
+export function backRows(stage: Stage, count: number, color: Rgb): Pixel[] {
   const [step, margin] = [0.1, 0.05];
   const perRow = Math.max(1, Math.floor((stage.width_m - 2 * margin) / step + 1e-9) + 1);
   return Array.from({ length: count }, (_, id) => ({
@@ -122,8 +122,8 @@ export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
 export const middleFrame = ({ frames }: Show): Frame | undefined =>
   frames[Math.floor(frames.length / 2)];
 
-/** A new show: one frame with all robots at the front edge, warm white. */
+/** A new show: one frame with all robots at the back edge, warm white. */
 export function newShow(name: string, count: number, stage: Stage = EMPTY_STAGE): Show {
-  const frames = [newFrame('Start', frontRows(stage, count, 0xffc878))];
+  const frames = [newFrame('Start', backRows(stage, count, 0xffc878))];
   return { name, stage, identity: 'any', music: null, frames, rest: {} };
 }

@@ -33,7 +33,7 @@ export async function beginWith(
   }
 }
 
-/** A show with all robots at the front edge. */
+/** A show with all robots at the back edge. */
 export async function beginEmpty(session: Session, { stage }: Fleet) {
   if ((await createShowInLibrary(session, { stage })) !== null) goTo('edit');
 }

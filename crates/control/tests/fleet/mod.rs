@@ -80,7 +80,7 @@ pub struct World {
 }
 
 impl World {
-    /// Robots in rows along the front edge. The last `originals` of them understand only TARGET and COLOR.
+    /// Robots in rows along the back edge. The last `originals` of them understand only TARGET and COLOR.
     pub fn new(count: usize, originals: usize) -> Self {
         Self::with(Config::default(), count, originals)
     }

@@ -2,7 +2,7 @@
 #![allow(dead_code)] // Each uses a part of it.
 
 use lightbots_exchange::{Format, put_onto, read};
-use lightbots_show::{Show, front_rows, validate};
+use lightbots_show::{Show, back_rows, validate};
 
 /// Whether a file is a show. A show is validated, written in `format` and read again. A refusal must be one line.
 pub fn is_show(bytes: &[u8], name: &str, format: &Format) -> bool {
@@ -10,7 +10,7 @@ pub fn is_show(bytes: &[u8], name: &str, format: &Format) -> bool {
         Ok(loaded) => {
             let lines = validate(&loaded.show);
             assert!(lines.iter().chain(&loaded.issues).all(|issue| !issue.message.contains('\n')));
-            front_rows(&loaded.show.stage, 5);
+            back_rows(&loaded.show.stage, 5);
             let again = read(&format.write(&loaded.show, None).bytes, None).expect("what we write we read");
             assert_eq!(again.show.frames.len(), loaded.show.frames.len());
             true

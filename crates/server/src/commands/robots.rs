@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lightbots_base::Vec2;
-use lightbots_show::{Stage, front_rows};
+use lightbots_show::{Stage, back_rows};
 use lightbots_sim::{Conditions, Faults, FleetConfig};
 
 use super::count;
@@ -51,7 +51,7 @@ pub async fn run(arguments: RobotsArguments, stop: Stop) -> Outcome {
 fn starts(said: &[String], stage: &Stage, robots: usize) -> Result<Vec<Vec2>, Failure> {
     let words: Vec<&str> = said.iter().flat_map(|text| text.split_whitespace()).collect();
     match (said, words.as_slice()) {
-        (_, ["rows"]) => Ok(front_rows(stage, robots)),
+        (_, ["rows"]) => Ok(back_rows(stage, robots)),
         ([only], [first, ..]) if place(first).is_none() => first_frame(only, stage, robots),
         _ => {
             let read = |text: &&str| {

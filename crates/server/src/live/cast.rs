@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use lightbots_control::{ControllerState, Operation};
 use lightbots_link::BrokerUrl;
-use lightbots_show::{Show, Stage, front_rows, robots_needed};
+use lightbots_show::{Show, Stage, back_rows, robots_needed};
 use lightbots_sim::{Conditions, FleetConfig};
 use tokio::sync::watch;
 
@@ -85,7 +85,7 @@ impl Cast {
     fn fleet(&self, show: &Show, robots: usize) -> FleetConfig {
         let starts = match &show.starts {
             Some(starts) if starts.len() >= robots => starts[..robots].to_vec(),
-            _ => front_rows(&show.stage, robots),
+            _ => back_rows(&show.stage, robots),
         };
         let conditions = self.conditions.clone();
         FleetConfig { stage: show.stage.clone(), starts, seed: self.seed, conditions }

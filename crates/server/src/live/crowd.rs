@@ -298,13 +298,13 @@ async fn forward(mut link: Link, index: usize, news: mpsc::Sender<Heard>, stop: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lightbots_show::{Stage, front_rows};
+    use lightbots_show::{Stage, back_rows};
     use lightbots_sim::Conditions;
 
     /// Three robots without a broker, with their clock and pace.
     fn crowd() -> (Crowd, Clock, Arc<Pace>) {
         let stage = Stage::default();
-        let (starts, conditions) = (front_rows(&stage, 3), Conditions::ideal());
+        let (starts, conditions) = (back_rows(&stage, 3), Conditions::ideal());
         let config = FleetConfig { stage, starts, seed: 1, conditions };
         let (clock, pace) = (Clock::start(), Arc::new(Pace::default()));
         let broker = BrokerUrl::new("127.0.0.1", 1);

@@ -7,7 +7,7 @@ use lightbots_base::Vec2;
 use super::findings::Findings;
 use super::limits::{MAX_FRAMES, MAX_PIXELS, PROVABLE_GAP_M, ROUNDING_M};
 use super::words::{millimetres, place};
-use crate::{Frame, Identity, Issue, Show, close_pairs, front_rows, robots_asked_for};
+use crate::{Frame, Identity, Issue, Show, back_rows, close_pairs, robots_asked_for};
 
 /// The search for pairs of close starting places ends once it has found this number of pairs. Bounds the list if many
 /// starts are at one place.
@@ -82,7 +82,7 @@ fn same_ids(show: &Show, usual: usize, findings: &mut Findings) {
     }
 }
 
-/// Checks the starting places, or the rows at the front edge if the show has none. `usual` is the most frequent number
+/// Checks the starting places, or the rows at the back edge if the show has none. `usual` is the most frequent number
 /// of pixels of a frame. `needed` is the number of robots that must have a place, including robots that pixels name.
 fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
     let stage = &show.stage;
@@ -92,7 +92,7 @@ fn starts(show: &Show, usual: usize, needed: usize, findings: &mut Findings) {
         !(at.x.abs() <= most_x + ROUNDING_M && at.y.abs() <= most_y + ROUNDING_M)
     };
     let Some(starts) = &show.starts else {
-        if front_rows(stage, needed).iter().any(is_off) {
+        if back_rows(stage, needed).iter().any(is_off) {
             let what =
                 format!("{needed} robots cannot wait on this floor; make it larger or take pixels away");
             findings.show("floor-too-small", what);

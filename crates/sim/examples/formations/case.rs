@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lightbots_base::{Rgb, Vec2};
-use lightbots_show::{Easing, Frame, Pixel, Show, Stage, front_rows};
+use lightbots_show::{Easing, Frame, Pixel, Show, Stage, back_rows};
 
 use super::shapes::{Shape, bounds};
 
@@ -33,7 +33,7 @@ pub enum Place {
     Far,
 }
 
-/// One formation, to which robots drive from the rows of [`front_rows`].
+/// One formation, to which robots drive from the rows of [`back_rows`].
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Its number, less than [`CASES`].
@@ -70,7 +70,7 @@ impl Case {
         let middle = match self.place {
             Place::Far => Vec2::ZERO,
             Place::Near => {
-                let last_row = bounds(&front_rows(&stage, self.count)).0.y;
+                let last_row = bounds(&back_rows(&stage, self.count)).0.y;
                 Vec2::new(0.0, last_row - NEAR_M - size.y / 2.0)
             }
         };

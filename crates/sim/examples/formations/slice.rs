@@ -12,7 +12,7 @@ use super::verdict::Required;
 
 pub const USAGE: &str = "\
 usage: formations [OPTION VALUE]…
-Robots drive from the usual rows at the front edge to one formation; rehearsed without and with noise and slip.
+Robots drive from the usual rows at the back edge to one formation; rehearsed without and with noise and slip.
   --cases A..B        cases with these numbers, both included; also one number
   --shape NAME        grid, hexagon, disc, ring or rows
   --count N           30, 100, 200 or 400 robots

@@ -47,7 +47,7 @@ fn id(number: usize) -> RobotId {
 /// the broker's messages.
 fn play(show: &Show, format: &Format, pace: Pace) -> (serde_json::Value, Account, Score) {
     let count = show.frames[0].pixels.len();
-    let starts = lightbots_show::front_rows(&show.stage, count);
+    let starts = lightbots_show::back_rows(&show.stage, count);
     let folder = tempfile(&show.name);
     let path = folder.join(format!("show{}", format.ending()));
     std::fs::write(&path, format.write(show, None).bytes).expect("the temporary folder can be written");
@@ -144,7 +144,7 @@ fn keeps_to_its_routes(show: &Show, score: &Score, account: &Account) {
 /// Largest distance of a robot from its path to the first picture in the plan of a rehearsal, metres. Planner and
 /// starts are the same. Later plans may differ, because the controller starts from the places that robots report.
 fn furthest_off(show: &Show, tracks: &[Vec<(Instant, Vec2)>]) -> f64 {
-    let starts = lightbots_show::front_rows(&show.stage, tracks.len());
+    let starts = lightbots_show::back_rows(&show.stage, tracks.len());
     let plan = lightbots_plan::show(show, &starts, &lightbots_plan::ShowOptions::default());
     let first = &plan.transitions[0];
     let mut furthest = 0.0_f64;

@@ -5,10 +5,10 @@ use lightbots_base::{Limits, Vec2};
 use crate::{Obstacle, Show, Stage, robots_needed};
 
 /// Distances between neighbouring robots, and between rows, for robots of the size of an Elisa-3, metres. They are
-/// tried in this order, until no row is beyond the far edge of the floor; otherwise the last one is used. The original
+/// tried in this order, until no row is beyond the front edge of the floor; otherwise the last one is used. The original
 /// system uses 0.1 m. 0.06 m leaves 6 mm between rims, twice `PROVABLE_GAP_M`.
 const STEPS_M: [f64; 3] = [0.1, 0.08, 0.06];
-/// Distance from the front edge of the floor to the first row, for robots of the size of an Elisa-3, metres. At most a
+/// Distance from the back edge of the floor to the first row, for robots of the size of an Elisa-3, metres. At most a
 /// quarter of the floor's depth is used. The original system has y = 1.3 m on a floor of 3 m.
 const FIRST_ROW_M: f64 = 0.2;
 /// Least distance from a side edge to the centre of a robot in a row, for robots of the size of an Elisa-3, metres. A
@@ -32,23 +32,23 @@ const FULL_ROWS_MAX: usize = 10_000;
 /// time for hostile shows.
 const COMPARISONS_MAX: usize = 200_000_000;
 
-/// Starting places of `count` robots, stage metres: rows along the front edge of the floor, where y is largest. Each
+/// Starting places of `count` robots, stage metres: rows along the back edge of the floor, where y is largest. Each
 /// row is centred and runs from left to right. On the original system's floor, 3 m by 3 m, thirty places have y = 1.3 m
 /// and begin at x = −1.45 m.
 ///
 /// For robots up to the size of an Elisa-3, neighbours and rows are 0.1 m apart. If the floor is too small, they are
-/// closer, down to 0.06 m. The first row is 0.2 m from the front edge, or a quarter of the floor's depth if that is
+/// closer, down to 0.06 m. The first row is 0.2 m from the back edge, or a quarter of the floor's depth if that is
 /// less. For larger robots, these distances grow with the radius, at most by a factor of 100.
 ///
 /// Places on or close to no-go areas are left out, unless hardly any place is free. If the floor is still too small,
-/// the last rows are beyond the far edge. The list always has `count` places.
-pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
+/// the last rows are beyond the front edge. The list always has `count` places.
+pub fn back_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
     let size = (stage.limits.radius_m / Limits::ELISA_3.radius_m).clamp(1.0, SIZE_MAX);
     let [wide_m, medium_m, narrow_m] = STEPS_M;
-    let far_edge_m = -stage.depth_m / 2.0 + stage.limits.radius_m;
+    let front_edge_m = -stage.depth_m / 2.0 + stage.limits.radius_m;
     for step_m in [wide_m, medium_m] {
         let places = rows(stage, count, step_m, size);
-        if places.iter().all(|place| place.y >= far_edge_m) {
+        if places.iter().all(|place| place.y >= front_edge_m) {
             return places;
         }
     }
@@ -56,9 +56,9 @@ pub fn front_rows(stage: &Stage, count: usize) -> Vec<Vec2> {
 }
 
 /// Places where the robots of a show wait before the first frame, stage metres: the show's `starts`, or else
-/// [`front_rows`].
+/// [`back_rows`].
 pub fn starting_places(show: &Show) -> Vec<Vec2> {
-    show.starts.clone().unwrap_or_else(|| front_rows(&show.stage, robots_needed(show)))
+    show.starts.clone().unwrap_or_else(|| back_rows(&show.stage, robots_needed(show)))
 }
 
 /// Rows of `count` places, stage metres, without those on or close to no-go areas. Robots are `size` times as large as
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn thirty_wait_where_the_originals_do() {
-        let places = front_rows(&Stage::default(), 30);
+        let places = back_rows(&Stage::default(), 30);
         assert_eq!(places.len(), 30);
         for (nth, place) in places.iter().enumerate() {
             assert!(place.distance(Vec2::new(-1.45 + 0.1 * nth as f64, 1.3)) < 1e-9);
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn more_stand_behind_and_the_last_row_is_centred() {
-        let places = front_rows(&Stage::default(), 32);
+        let places = back_rows(&Stage::default(), 32);
         assert_eq!(places[30], Vec2::new(-0.05, 1.2));
         assert_eq!(places[31], Vec2::new(0.05, 1.2));
     }
@@ -145,7 +145,7 @@ mod tests {
     fn large_robots_wait_farther_apart_and_off_the_edge() {
         let limits = Limits { radius_m: 0.1, ..Limits::default() };
         let stage = Stage { width_m: 6.0, depth_m: 6.0, limits, ..Stage::default() };
-        let places = front_rows(&stage, 30);
+        let places = back_rows(&stage, 30);
         assert!(places.iter().all(|place| place.x.abs() <= 2.9 && place.y.abs() <= 2.9), "{places:?}");
         let pairs =
             places.iter().enumerate().flat_map(|(i, a)| places[..i].iter().map(move |b| a.distance(*b)));
@@ -156,7 +156,7 @@ mod tests {
     fn rows_leave_obstacles_free() {
         let wall = Obstacle::Rect { min: Vec2::new(-1.5, 1.0), max: Vec2::new(1.0, 1.5) };
         let stage = Stage { obstacles: vec![wall], ..Stage::default() };
-        let places = front_rows(&stage, 40);
+        let places = back_rows(&stage, 40);
         assert_eq!(places.len(), 40);
         assert!(places.iter().all(|place| wall.gap_m(*place) >= 0.027));
     }
@@ -168,7 +168,7 @@ mod tests {
         {
             let everywhere = Obstacle::Disc { at: Vec2::ZERO, radius_m: 1e9 };
             let stage = Stage { width_m, depth_m, obstacles: vec![everywhere], ..Stage::default() };
-            assert_eq!(front_rows(&stage, 7).len(), 7);
+            assert_eq!(back_rows(&stage, 7).len(), 7);
         }
     }
 
@@ -176,7 +176,7 @@ mod tests {
     fn places_without_room_are_one_column_without_gaps() {
         let everywhere = Obstacle::Rect { min: Vec2::new(-1e6, -1e6), max: Vec2::new(1e6, 1.25) };
         let stage = Stage { obstacles: vec![everywhere], ..Stage::default() };
-        let places = front_rows(&stage, 80);
+        let places = back_rows(&stage, 80);
         let column = &places[49..];
         assert!(places[48].y > 1.2 && column[0].y < 1.2, "the first row is full");
         assert!(column.windows(2).all(|pair| (pair[0].y - pair[1].y - 0.06).abs() < 1e-9), "{column:?}");
