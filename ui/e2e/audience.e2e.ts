@@ -11,13 +11,13 @@ const SHOTS = process.env.SHOTS;
 
 const view = (page: Page) => page.locator('[data-viewpoint]');
 
-/** Goes to the audience view, as a projector's computer does. */
+/** Loads the audience view in this page and waits for its canvas. */
 async function watch(page: Page) {
   await page.goto(`${new URL(page.url()).origin}/#/audience`);
   await view(page).locator('canvas').waitFor();
 }
 
-/** What is lit on the canvas: number of bright pixels, their middle, CSS pixels, and their colour, 0 to 255. */
+/** Bright pixels of the canvas: their number, mean place, pixels of the canvas, and mean colour, 0 to 255. */
 const lightOf = (page: Page) =>
   view(page)
     .locator('canvas')

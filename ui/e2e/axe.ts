@@ -4,11 +4,11 @@ import type { Page } from 'playwright-core';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-/** What axe finds that is serious, one line each. */
+/** Serious and critical violations that axe finds, one line each; waits first for short animations to end. */
 export async function findings(page: Page): Promise<string[]> {
   await page.evaluate(axe);
   return page.evaluate(async () => {
-    // What is fading in has less contrast than it will have, and may not have begun yet.
+    // While an element fades in, its contrast is smaller than afterwards; the fade may not have begun yet.
     const areFading = () =>
       document.getAnimations().some((one) => {
         const end = one.effect?.getComputedTiming().endTime;

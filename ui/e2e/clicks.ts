@@ -1,6 +1,7 @@
+/** Samples a second. */
 const RATE_HZ = 8000;
 
-/** Clicks at 120 beats a minute as a WAV file, from `FIRST_S` on; every fourth is a low one. */
+/** A WAV file of `lasts_s` seconds: clicks at 120 a minute from `FIRST_S` on; the 1st, 5th, 9th … are low. */
 export function clicks(lasts_s: number): Buffer {
   const samples = new Int16Array(lasts_s * RATE_HZ);
   for (let beat = 0; FIRST_S + beat / 2 < lasts_s - 0.1; beat++) {
@@ -25,6 +26,7 @@ export function clicks(lasts_s: number): Buffer {
   return Buffer.concat([header, Buffer.from(samples.buffer)]);
 }
 
-/** When the first click begins, and the time between two, seconds. */
+/** When the first click begins, seconds. */
 export const FIRST_S = 0.25;
+/** Time between two clicks, seconds. */
 export const EVERY_S = 0.5;

@@ -8,8 +8,10 @@ export const LAYERS = [
 /** Side of the square floor for a number of robots, metres. */
 export const sideOf = (count: number) => Math.ceil(Math.sqrt(count)) * 0.12 + 1;
 
-/** Two crowds of `count` coloured pixels, each a turned copy of the other: all robots drive nearly all the time. Robots
- * start in the first, so that a crowd of thousands needs no minutes to get there. */
+/**
+ * A show of two frames of `count` coloured pixels in a grid, the second turned by 0.7 rad. Robots drive most of the
+ * time. They start on the first frame, because thousands of them would need minutes to drive to it.
+ */
 export function crowdShow(count: number, layers: readonly object[]): string {
   const across = Math.ceil(Math.sqrt(count));
   const side_m = sideOf(count);
@@ -36,7 +38,7 @@ export function crowdShow(count: number, layers: readonly object[]): string {
   return JSON.stringify({ lightbots: 2, name, stage, starts, frames, layers });
 }
 
-/** A long show: a row of robots that goes back and forth, in that number of frames, under layers of a few frames each. */
+/** A show in which rows of robots go back and forth; each of `layers` layers spans up to six frames. */
 export function longShow(robots: number, frames: number, layers: number): string {
   const one = (_: unknown, nth: number) => ({
     id: `f${nth}`,

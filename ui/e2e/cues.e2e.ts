@@ -54,7 +54,7 @@ test('a frame waits for GO: set in the editor, given on the live page by key and
   }
 });
 
-/** Three frames of six pixels that stay for a while; the first one waits for GO. */
+/** A show of three frames of six pixels with air times of 0.3 s, 0.3 s and 60 s; the first frame waits for GO. */
 function longShow(): string {
   const show = JSON.parse(smallShow(6, 0.3)) as { frames: Record<string, unknown>[] };
   const [one, two] = show.frames;

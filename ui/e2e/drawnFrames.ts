@@ -17,14 +17,16 @@ export function noteDraws() {
   note('putImageData', '[data-viewpoint]');
 }
 
-/** Frames a second, the gap that one frame in twenty exceeds, and main-thread work a frame. */
+/** Frames a second, gaps between frames, and work of the main thread. */
 export interface Measured {
   fps: number;
+  /** Gap between two frames that 5 % of the gaps exceed; null: there were no gaps to measure. */
   late_ms: number | null;
+  /** Work of the main thread for each frame. */
   busy_ms: number;
 }
 
-/** Of moments of frames in a span, milliseconds, and of the main thread's time. */
+/** From the moments of frames, milliseconds, within a span, and the work of the main thread in that span. */
 function measured(moments: readonly number[], span_ms: number, busy_ms: number): Measured {
   const gaps = moments.slice(1).map((at, i) => at - (moments[i] ?? at));
   const sorted = gaps.sort((a, b) => a - b);
@@ -35,7 +37,7 @@ function measured(moments: readonly number[], span_ms: number, busy_ms: number):
   };
 }
 
-/** The main thread's own time on a core during some work, milliseconds: what else the machine does is not its work. */
+/** Processor time of the page's main thread during `work`, milliseconds; other programs do not count. */
 async function busyDuring<T>(page: Page, work: () => Promise<T>): Promise<[T, number]> {
   const client = await page.context().newCDPSession(page);
   await client.send('Performance.enable', { timeDomain: 'threadTicks' });
@@ -49,7 +51,7 @@ async function busyDuring<T>(page: Page, work: () => Promise<T>): Promise<[T, nu
   return [done, busy_ms];
 }
 
-/** Frames in which the stage was drawn. */
+/** Measures the frames in which the page drew the stage, for `lasts_ms`; `noteDraws` must run in the page. */
 export async function measure(page: Page, lasts_ms = 6000): Promise<Measured> {
   const [gaps, busy_ms] = await busyDuring(page, () =>
     page.evaluate(async (span_ms) => {
@@ -70,8 +72,8 @@ interface TraceEvent {
 }
 
 /**
- * Frames that the browser put on the screen, of a page of which nothing else moves. What scrolls is drawn without the
- * page's own thread, so that the page cannot count it.
+ * Measures the frames that the browser put on the screen, for a page in which nothing else moves. Scrolling is drawn
+ * without the page's main thread, so that the page cannot count its frames.
  */
 export async function measureShown(page: Page, lasts_ms = 6000): Promise<Measured> {
   const browser = page.context().browser();

@@ -21,7 +21,7 @@ const bed = createTestBed('--robots', '12');
 
 const frames = (page: Page) => page.getByRole('list', { name: 'Frames' }).locator('li');
 
-/** Begins a show; answers its name in the library. */
+/** Begins an empty show in the editor; answers its name in the library. */
 async function begin(page: Page): Promise<string> {
   await page.getByTestId('open-library').click();
   await button(page, 'New show').click();

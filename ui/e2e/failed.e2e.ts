@@ -5,7 +5,7 @@ import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '0');
 
-// Three that fall silent at once are a lost link, which waits for them; two are lost robots.
+// Two robots: three or more that fall silent at once count as a lost link, and the show would wait for them.
 test('a run whose robots all die says so where Play is, until it is dismissed or started again', async () => {
   const page = await bed.open();
   await uploadText(page, 'dying.json', smallShow(2, 30));

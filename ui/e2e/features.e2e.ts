@@ -152,7 +152,7 @@ test('settings: unit of lengths, floor, no-go area, robot limits, and the broker
   await page.getByText('External', { exact: true }).click();
   await page.getByLabel('Address').fill('no address');
   await button(page, 'Connect').click();
-  // Where it is mended, and over nothing.
+  // The error is shown in the dialog, where the address is corrected, and covers nothing.
   await page
     .getByRole('dialog')
     .getByRole('alert')

@@ -21,7 +21,7 @@ async function openDialog(name: string) {
   return { page, dialog };
 }
 
-/** Plays a film in the page: its size, how long it is, and how bright its brightest pixel is in the middle. */
+/** Loads a film in the page: size, duration, seconds, and brightest component, 0 to 255, a second before its end. */
 const looked = (page: Page, type: string, film: Buffer) =>
   page.evaluate(
     async ({ type, text }) => {

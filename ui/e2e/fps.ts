@@ -8,13 +8,15 @@ import { eventually, openPage, startServer } from './harness';
 import { scaleOf } from './journeys';
 import { createBrowserBed } from './testBed';
 
-/** Frames a second that are promised, by number of robots; none for those that are only stated. */
+/** Frames a second that are promised, by number of robots; other numbers of robots are only measured. */
 const GOALS: Record<number, number> = { 30: 58, 100: 58, 1000: 30 };
 
 const bed = createBrowserBed('fps');
 
-/** Size and number of the snapshots that a screen gets, and how fast the show clock goes: a machine that is too slow for
- * its simulated robots slows them down. */
+/**
+ * Measures for 2 s the size and rate of the messages that a screen gets, and the speed of the show clock. The clock
+ * goes slower on a machine that is too slow for its simulated robots.
+ */
 const snapshots = (page: Page) =>
   page.evaluate(async () => {
     const socket = new WebSocket(`ws://${location.host}/ws`);
@@ -55,8 +57,8 @@ const row = (scene: string, robots: number, measured: Measured, more = {}) =>
   );
 
 /**
- * Measures while a pressed hand moves along `path`, whose parameter grows by 0.05 each 8 ms, with Alt (1) or no key. `by`
- * counts the frames.
+ * Measures while the pressed mouse moves along `path`, CSS pixels. The parameter of `path` grows by 0.05 every 8 ms.
+ * `modifiers`: 1 holds Alt, 0 holds no key. `by` measures.
  */
 async function measureDrag(
   page: Page,
@@ -66,7 +68,7 @@ async function measureDrag(
   const from = path(0);
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
-  // The hand itself: Playwright's mouse runs scripts of its own in the page at every step of a drag.
+  // Events are sent directly: Playwright's mouse runs scripts of its own in the page at every step of a drag.
   const client = await page.context().newCDPSession(page);
   let [turn, moving] = [0, true];
   const hand = (async () => {
@@ -74,7 +76,7 @@ async function measureDrag(
       turn += 0.05;
       const held = { button: 'left', buttons: 1, modifiers } as const;
       const moved = { type: 'mouseMoved', ...path(turn), ...held } as const;
-      // A slow page may be closed before the last of them are taken.
+      // A slow page may be closed before it takes the last events.
       client.send('Input.dispatchMouseEvent', moved).catch(() => undefined);
       await new Promise((resolve) => setTimeout(resolve, 8));
     }
@@ -106,7 +108,7 @@ async function dragAll(page: Page, robots: number, scene: string) {
   row(scene, robots, measured);
 }
 
-/** Moves along the whole show and back, again and again. */
+/** Measures while the slider of the preview is dragged along the show and back, again and again. */
 async function scrub(page: Page, robots: number, scene: string) {
   const thumb = page.getByRole('slider', { name: 'Moment of the show' });
   const box = await thumb.locator('xpath=../..').boundingBox();
@@ -126,7 +128,7 @@ async function watch(page: Page, robots: number, scene: string) {
   row(scene, robots, measured, await snapshots(page));
 }
 
-/** Measures the audience view of the run that is on, from above and in perspective. */
+/** Measures the audience view, from above and in perspective. */
 async function watchAsAudience(page: Page, robots: number) {
   const view = page.locator('[data-viewpoint]');
   await view.waitFor();
@@ -135,7 +137,7 @@ async function watchAsAudience(page: Page, robots: number) {
   row('audience, in perspective', robots, await measure(page));
 }
 
-/** A crowd of `robots` robots, on the page for editing; `scenes` are measured. */
+/** Starts a server with a crowd of `robots` robots, opens the editor and runs `scenes`; `go` changes the view. */
 async function withCrowd(
   robots: number,
   layers: readonly object[],
@@ -158,7 +160,7 @@ async function withCrowd(
 for (const robots of [30, 100, 1000, 10_000])
   test(`frames a second with ${robots} robots`, () =>
     withCrowd(robots, [], async (page, go) => {
-      // One scene that fails does not cost the other.
+      // If one scene fails, the other is measured nevertheless.
       const edited =
         robots <= 1000 ? await Promise.allSettled([dragAll(page, robots, 'drag all')]) : [];
       await go('live');
@@ -185,7 +187,7 @@ for (const robots of [30, 100, 1000])
 
 const [FRAMES, TIMELINE_LAYERS, TIMELINE_ROBOTS] = [200, 50, 30];
 
-/** Rolls the wheel along the timeline and back, as often as a mouse reports. */
+/** Measures while the wheel scrolls the timeline at `at` to and fro, one event every 8 ms. */
 async function measureScroll(page: Page, at: { x: number; y: number }) {
   const client = await page.context().newCDPSession(page);
   let [rolls, rolling] = [0, true];

@@ -1,9 +1,9 @@
 import type { Locator, Page } from 'playwright-core';
 
-/** How a person operates the screen. */
+/** Device with which a person operates the screen. */
 export type Means = 'mouse' | 'touch' | 'keyboard';
 
-/** Operates a page by one means alone. */
+/** Operates a page with one device only. */
 export interface Hand {
   /** Presses a control. */
   press(thing: Locator): Promise<void>;
@@ -13,7 +13,7 @@ export interface Hand {
   type(field: Locator, text: string): Promise<void>;
 }
 
-/** More controls than any page has. */
+/** Presses of Tab after which a control counts as out of reach; more than the controls of any page. */
 const TABS_MAX = 200;
 
 export function createHand(page: Page, means: Means): Hand {
@@ -22,7 +22,7 @@ export function createHand(page: Page, means: Means): Hand {
     if (means === 'mouse') return thing.click();
     if (means === 'touch') return thing.tap();
     await focusByTab(page, thing);
-    // A switch knows only the blank.
+    // A switch reacts only to the space bar.
     const isSwitch = (await thing.getAttribute('role')) === 'switch';
     await page.keyboard.press(isSwitch ? 'Space' : 'Enter');
   };
@@ -37,7 +37,7 @@ export function createHand(page: Page, means: Means): Hand {
   };
 }
 
-/** Presses Tab until a control has the focus. */
+/** Presses Tab until a control has the focus; throws after `TABS_MAX` presses. */
 export async function focusByTab(page: Page, thing: Locator) {
   for (let i = 0; i < TABS_MAX; i++) {
     if (await thing.evaluate((element) => element === document.activeElement)) return;

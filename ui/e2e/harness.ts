@@ -4,10 +4,10 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { chromium, type Browser, type BrowserContextOptions, type Page } from 'playwright-core';
 
-/** As long as anything may take on a slow, busy machine, milliseconds. */
+/** Longest wait for anything, milliseconds; enough for a slow, busy machine. */
 export const PATIENCE_MS = Number(process.env.PATIENCE_MS ?? 90_000);
 
-/** The folder of a built screen to try in place of the one in the program, which need not be built anew then. */
+/** Folder of a built screen that is served in place of the one in the program; undefined: none. */
 const screen = process.env.LIGHTBOTS_SCREEN;
 
 const CHROMIUM_ARGS = [
@@ -19,18 +19,18 @@ const CHROMIUM_ARGS = [
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',
-  // What a test serves by itself counts as foreign, and would not be let at the server's socket.
+  // A screen that the test serves counts as foreign; by default the browser does not let it connect to the server.
   ...(screen ? ['--disable-features=LocalNetworkAccessChecks'] : []),
 ];
 
-/** The program under test, by `LIGHTBOTS_BIN`. */
+/** Path of the program under test, from `LIGHTBOTS_BIN`. */
 function program(): string {
   const path = process.env.LIGHTBOTS_BIN;
   if (!path) throw new Error('Set LIGHTBOTS_BIN to a built lightbots program.');
   return path;
 }
 
-/** Chromium, by `CHROMIUM` or where Linux systems keep it. */
+/** Path of Chromium: from `CHROMIUM`, else the first usual path on Linux that exists. */
 function browserPath(): string {
   const places = [
     process.env.CHROMIUM,
@@ -45,9 +45,9 @@ function browserPath(): string {
 
 export interface Server {
   url: string;
-  /** Its library, gone after `remove`. */
+  /** Folder of its data, deleted by `remove`. */
   data: string;
-  /** Its process now. */
+  /** Id of its present process. */
   pid(): number;
   /** What it has printed since its last start, up to 20,000 characters. */
   said(): string;
@@ -83,7 +83,7 @@ export async function startServer(...more: string[]): Promise<Server> {
   return server;
 }
 
-/** The part of the first operator's address that a server prints: `#first=…`. */
+/** Waits for the one-time part, `#first=…`, of the address that a server prints for the first operator. */
 export const firstAddress = (server: Server): Promise<string> =>
   eventually(
     async () => /#first=[0-9a-f]+/.exec(server.said())?.[0] ?? '',
@@ -108,7 +108,7 @@ export interface Broker {
   restart(): Promise<void>;
 }
 
-/** Starts a broker of its own process on a free port. */
+/** Starts a broker in a process of its own, on a free port. */
 export async function startBroker(): Promise<Broker> {
   const start = async (port: string) => {
     const child = spawn(program(), ['broker', '--mqtt-listen', `127.0.0.1:${port}`], {
@@ -138,14 +138,14 @@ export async function startBroker(): Promise<Broker> {
   };
 }
 
-/** Ends robots, as a power cut does. */
+/** Ends the robots, as a power cut does. */
 export interface OtherRobots {
   (): Promise<void>;
-  /** Their process. */
+  /** Id of their process. */
   pid: number;
 }
 
-/** Robots of a process of their own on a broker, or a server's. */
+/** Starts `count` simulated robots in a process of their own, on a broker or on a server's embedded broker. */
 export async function startRobots(
   on: Server | Broker,
   count: number,
@@ -173,7 +173,7 @@ function launch(args: string[]): Promise<[ChildProcess, string, () => string]> {
     );
     const read = (bytes: Buffer) => {
       said += bytes.toString();
-      // The first lines have addresses, and the last ones say what went wrong.
+      // The first lines have addresses, the last ones errors.
       if (said.length > 40_000) said = said.slice(0, 20_000) + said.slice(-10_000);
       const url = /https?:\/\/[\d.]+:\d+/.exec(said)?.[0];
       if (!url) return;
@@ -194,13 +194,13 @@ function end(child: ChildProcess): Promise<void> {
   });
 }
 
-/** A browser; `sound`: what its environment needs to be heard. */
+/** Starts a browser; `sound`: environment variables with which it can be heard; without them it is muted. */
 export const launchBrowser = (sound?: Record<string, string>): Promise<Browser> =>
   chromium.launch({
     executablePath: browserPath(),
     args: CHROMIUM_ARGS,
     env: { ...process.env, ...sound },
-    // Hidden tabs are slowed as everywhere.
+    // Without these default arguments, hidden tabs are slowed as in people's browsers.
     ignoreDefaultArgs: [
       '--disable-renderer-backgrounding',
       '--disable-background-timer-throttling',
@@ -209,10 +209,10 @@ export const launchBrowser = (sound?: Record<string, string>): Promise<Browser> 
     timeout: PATIENCE_MS,
   });
 
-/** What went wrong inside pages; every suite ends by finding it empty. */
+/** Errors inside pages, and violations of their security policy; at the end of most suites there must be none. */
 export const mistakes: string[] = [];
 
-/** A page that has seen the tour, of a size a laptop has; `before` runs in it first. */
+/** Opens a page and waits for its connection. Without `tour`, the tour counts as seen. `before` runs in it first. */
 export async function openPage(
   browser: Browser,
   server: Server,
@@ -245,7 +245,7 @@ export async function openPage(
 
 async function serveScreen(page: Page, server: Server): Promise<void> {
   if (!screen) return;
-  // The files are other ones, the rules for them are the server's.
+  // The files are others, but they are served with the server's security policy.
   const answer = await page.context().request.get(server.url);
   const policy = answer.headers()['content-security-policy'] ?? '';
   const headers = { 'content-security-policy': policy };
@@ -262,7 +262,7 @@ async function serveScreen(page: Page, server: Server): Promise<void> {
   );
 }
 
-/** Waits until what `read` gives passes. */
+/** Reads every 100 ms until a value passes, and answers it. Throws after `PATIENCE_MS`, naming `what`. */
 export async function eventually<T>(
   read: () => Promise<T>,
   passes: (value: T) => boolean,

@@ -3,11 +3,11 @@ import { eventually } from './harness';
 
 /** A tab behind another tab of its window, as operators leave them. Pages of Playwright always count as seen. */
 export interface HiddenTab {
-  /** What an expression gives in the page. */
+  /** The value of a JavaScript expression in the page. */
   ask(expression: string): Promise<unknown>;
 }
 
-/** Opens an address in hidden tabs and waits until each has text that passes. */
+/** Opens `count` hidden tabs with an address, and waits until each contains `text`. */
 export async function openHiddenTabs(
   browser: Browser,
   url: string,

@@ -17,7 +17,7 @@ test('Space does what its tip says after a click, and presses a button that was 
   await page.keyboard.press('Space');
   await preview.waitFor();
   expect(await frames.count()).toBe(3);
-  // The ring shows, so that the key is the button's.
+  // After Tab, keys belong to the focused button.
   await page.keyboard.press('Shift+Tab');
   await tabTo(page, 'button', 'Add a frame (Ctrl Enter)');
   await page.keyboard.press('Space');
@@ -40,7 +40,7 @@ test('Space does what its tip says after a click, and presses a button that was 
   await page.keyboard.press('Space');
   await phaseIs(page, 'paused');
   expect(await loop.getAttribute('aria-pressed')).toBe('true');
-  // A tip that is shown does not keep the key for itself.
+  // A tooltip that is shown does not take Escape for itself.
   await loop.hover();
   await page.getByRole('tooltip', { name: 'Loop (L)' }).waitFor();
   await page.keyboard.press('Escape');
@@ -52,7 +52,7 @@ test('Space does what its tip says after a click, and presses a button that was 
   await page.getByRole('tooltip', { name: /^Every robot stops/ }).waitFor();
   await page.keyboard.press('Shift+Escape');
   await phaseIs(page, 'ready');
-  // In a dialog keys belong to what has the focus.
+  // In a dialog, keys belong to the focused element.
   await page.keyboard.press('c');
   const dialog = page.getByRole('dialog');
   await dialog.waitFor();

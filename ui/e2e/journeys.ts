@@ -3,7 +3,7 @@ import type { Phase } from '../src/api/types.gen';
 import { focusByTab } from './hand';
 import { eventually } from './harness';
 
-/** Two frames of `count` pixels in rows; the second 0.4 m behind the first, shown for `air_s`. */
+/** A show of two frames of `count` pixels in rows, with air times of `air_s`; y is 0.2 m smaller in the second. */
 export function smallShow(count: number, air_s = 0.3): string {
   const frame = (name: string, y: number) => ({
     name,
@@ -18,20 +18,20 @@ export function smallShow(count: number, air_s = 0.3): string {
   return JSON.stringify({ lightbots: 1, name: '', stage: { width_m: 3, depth_m: 3 }, frames });
 }
 
-/** Begins a show with nothing in it but the robots at the back edge. */
+/** Begins an empty show and waits for the editor's stage. */
 export async function beginEmpty(page: Page): Promise<void> {
   await button(page, 'New').click();
   await button(page, 'Empty show').click();
   await page.getByTestId('stage').waitFor();
 }
 
-/** What is dropped or pasted: files by their names, or a text. */
+/** What is dropped or pasted: contents of files by name, or a text. */
 export interface Brought {
   files?: Record<string, string | Uint8Array>;
   text?: string;
 }
 
-/** A drag or paste of the page, with what it brings. */
+/** Dispatches a drop, drag or paste with these files or this text. */
 async function bring(page: Page, brought: Brought, act: 'drop' | 'dragenter' | 'paste') {
   const files = Object.entries(brought.files ?? {}).map(([name, content]) => ({
     name,
@@ -67,7 +67,7 @@ export const hold = (page: Page, brought: Brought) => bring(page, brought, 'drag
 /** Pastes files or a text where the focus is. */
 export const paste = (page: Page, brought: Brought) => bring(page, brought, 'paste');
 
-/** Drops a file on the page; if it is good, waits until it is open. */
+/** Drops a file on the page; if `good`, waits for the notice that it was imported and opened. */
 export async function uploadText(
   page: Page,
   name: string,
@@ -90,7 +90,7 @@ export async function uploadText(
       .waitFor();
 }
 
-/** Opens a show of the library by the dialog. */
+/** Opens a show of the library with the dialog. */
 export async function openShow(page: Page, name: string): Promise<void> {
   await page.getByTestId('open-library').click();
   const list = page.getByRole('list', { name: 'Shows in the library' });
@@ -102,11 +102,11 @@ export async function openShow(page: Page, name: string): Promise<void> {
   await page.getByRole('dialog').waitFor({ state: 'hidden' });
 }
 
-/** A button by the whole of its name. */
+/** A button by its whole name. */
 export const button = (page: Page, name: string | RegExp) =>
   page.getByRole('button', { name, exact: true });
 
-/** Waits until the run is in that phase. */
+/** Waits until the run is in phase `wanted`. */
 export const phaseIs = (page: Page, wanted: Phase) =>
   eventually(
     () => page.getByTestId('phase').getAttribute('data-phase'),
@@ -114,7 +114,7 @@ export const phaseIs = (page: Page, wanted: Phase) =>
     `the phase is ${wanted}`,
   );
 
-/** Waits until there are so many of something. */
+/** Waits until exactly `wanted` elements match. */
 export const countIs = (things: Locator, wanted: number) =>
   eventually(
     () => things.count(),
@@ -122,7 +122,7 @@ export const countIs = (things: Locator, wanted: number) =>
     `there are ${wanted} of ${things}`,
   );
 
-/** Measured places of the robots by their list in the page, metres. */
+/** Measured places of the robots with a known place, from their list in the page, stage metres. */
 export async function robotPlaces(page: Page): Promise<[number, number][]> {
   const lines = await page.getByTestId('robots').locator('li').allTextContents();
   return lines.flatMap((line) => {
@@ -139,7 +139,7 @@ export interface Pixel {
   chosen: boolean;
 }
 
-/** The pixels of the frame by their list in the page. */
+/** The pixels of the frame on the stage, from their list in the page; places in stage metres. */
 export const pixels = (page: Page): Promise<Pixel[]> =>
   page
     .getByTestId('pixels')
@@ -154,7 +154,7 @@ export const pixels = (page: Page): Promise<Pixel[]> =>
       })),
     );
 
-/** Waits until the frame has so many pixels; without a number, until it has any. */
+/** Waits until the frame has `wanted` pixels; without a number, until it has any. */
 export const pixelsAre = (page: Page, wanted?: number) =>
   eventually(
     () => pixels(page),
@@ -162,7 +162,7 @@ export const pixelsAre = (page: Page, wanted?: number) =>
     `there are ${wanted ?? 'some'} pixels`,
   );
 
-/** Waits until keys go to the dialog or menu: it takes the focus a little later than it is seen. */
+/** Waits until the dialog or menu has the focus, which comes a little later than it is seen. */
 export const hasKeys = (page: Page, role: 'dialog' | 'menu') =>
   eventually(
     () => page.evaluate((r) => !!document.activeElement?.closest(`[role=${r}]`), role),
@@ -170,7 +170,7 @@ export const hasKeys = (page: Page, role: 'dialog' | 'menu') =>
     `the ${role} has the focus`,
   );
 
-/** Waits until the stage keeps its place: while a page is loaded, panels still move it under the pointer. */
+/** Waits until the stage stays at its place on the screen: while a page loads, panels still move it. */
 export const stageStands = (page: Page) => {
   let before = '';
   return eventually(
@@ -180,7 +180,7 @@ export const stageStands = (page: Page) => {
   );
 };
 
-/** Waits until these pixels are chosen, by their order in the list. */
+/** Waits until exactly these pixels are chosen; `wanted` has their indices in the list, ascending. */
 export const chosenAre = (page: Page, wanted: number[]) =>
   eventually(
     async () => (await pixels(page)).flatMap((p, id) => (p.chosen ? [id] : [])),
@@ -217,7 +217,7 @@ export async function drag(
   await page.mouse.up();
 }
 
-/** Waits until the library has everything. */
+/** Waits until all changes are saved in the library. */
 export const saved = (page: Page) => page.locator('[data-testid=save][data-save=saved]').waitFor();
 
 /** A library document as it is on the server. */
@@ -240,11 +240,11 @@ export interface StoredFrame {
   pixels: { id: number; place: [number, number]; color: string; robot?: string; group?: string }[];
 }
 
-/** Presses Tab until the control of that name has the focus. */
+/** Presses Tab until the first control of this role and name has the focus. */
 export const tabTo = (page: Page, role: string, name: string) =>
   focusByTab(page, page.getByRole(role as 'button', { name, exact: true }).first());
 
-/** Begins a show of 30 robots; answers its name in the library. */
+/** Begins an empty show for 30 robots; answers its name in the library. */
 export async function beginShow(page: Page): Promise<string> {
   await beginEmpty(page);
   await pixelsAre(page, 30);

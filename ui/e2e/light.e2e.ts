@@ -33,7 +33,7 @@ const layers = async (page: Page, show: string) =>
 const layersAre = (page: Page, show: string, wanted: (found: StoredLayer[]) => boolean) =>
   eventually(() => layers(page, show), wanted, 'the layers are saved');
 
-/** Red, green and blue of the stage where the first pixel stands. */
+/** Red, green and blue, 0 to 255, of the stage at the place of the first pixel. */
 async function lightOf(page: Page): Promise<number[]> {
   const [first] = await pixels(page);
   if (!first) throw new Error('There is no pixel.');
@@ -90,7 +90,7 @@ test('a preset shines on the stage at once, is changed in the panel and is saved
     const palette = only?.settings.palette as string[] | undefined;
     return only?.kind === 'solid' && palette?.[0] === '#00ff00';
   });
-  // Only in the second frame: the first has its own colours again, and the moment on the stage decides.
+  // The layer lights only the second frame. The colours of the stage are those of the moment that it shows.
   await page.getByText('Frames', { exact: true }).last().click();
   await page.getByRole('combobox', { name: 'To frame' }).click();
   await page.getByRole('option', { name: /^2/ }).click();

@@ -12,7 +12,7 @@ describe('the live view', () => {
       viewport: { width: 1024, height: 768 },
     });
     await uploadText(page, 'two steps.json', smallShow(12, 4));
-    // Both are watched at once: what one sees late the other may not see any more.
+    // Both pages are watched at once: while one is awaited, the other may already have passed the state.
     const watched = [page, second].map(async (seer) => {
       await seer.getByText(/Playing frame 2 of 2/).waitFor();
       await phaseIs(seer, 'ready');

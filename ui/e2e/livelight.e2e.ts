@@ -6,7 +6,7 @@ import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '6');
 
-/** Plays a show whose lights are blue. */
+/** Uploads a show with blue lights, opens the tab Light, and plays the show. */
 async function play(page: Page, name: string) {
   const show = JSON.parse(smallShow(6, 60)) as { frames: { pixels: { color: string }[] }[] };
   for (const frame of show.frames) for (const pixel of frame.pixels) pixel.color = '#0000ff';
@@ -36,7 +36,7 @@ const areBlue = (page: Page, wanted: boolean) =>
 
 test('a light is put over the running show by button, key and pad, and goes with the second press', async () => {
   const page = await bed.open('live');
-  // No MIDI device is here: this one is played by the test.
+  // There is no MIDI device: the test plays this one.
   await page.addInitScript(() => {
     const input = {
       name: 'Pads',
@@ -86,7 +86,7 @@ test('a light is put over the running show by button, key and pad, and goes with
   await isOn(page, 'Sunrise', false);
   await areBlue(page, true);
 
-  // It ends with the show.
+  // The colour of the lights ends with the show.
   await tile(page, 'Rainbow').click();
   await isOn(page, 'Rainbow', true);
   await page.keyboard.press('Escape');

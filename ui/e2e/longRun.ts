@@ -9,7 +9,9 @@ import { eventually, openPage, startServer, type Server } from './harness';
 import { openHiddenTabs } from './hiddenTabs';
 import { createBrowserBed } from './testBed';
 
+/** Number of simulated robots. */
 const ROBOTS = Number(process.env.ROBOTS ?? 1000);
+/** Duration of the test, minutes. */
 const MINUTES = Number(process.env.MINUTES ?? 30);
 /** Minutes between two rows. */
 const EVERY = 5;
@@ -20,11 +22,11 @@ const bed = createBrowserBed('long');
 const resident_kB = (pid: number) =>
   Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, 'utf8'))?.[1] ?? 0);
 
-/** Processes that a process started: the server's broker. */
+/** Ids of the processes that a process started, such as the server's broker. */
 const children = (pid: number) =>
   readFileSync(`/proc/${pid}/task/${pid}/children`, 'utf8').split(' ').filter(Boolean).map(Number);
 
-/** Memory of a page's scripts, bytes, without what is no longer used. */
+/** Memory of a page's scripts after a garbage collection, bytes. */
 async function heapOf(page: Page): Promise<number> {
   const client = await page.context().newCDPSession(page);
   await client.send('HeapProfiler.collectGarbage');
@@ -52,7 +54,7 @@ const expectHidden = (state: unknown) => expect(state).toBe('hidden');
 
 const print = (value: object) => process.stdout.write(`\n${JSON.stringify(value)}\n`);
 
-/** The run that ended. */
+/** Waits until the newest run has ended, and answers it. */
 const lastRun = (page: Page) =>
   eventually(
     () => page.evaluate(async () => ((await (await fetch('/api/runs')).json()) as RunEntry[])[0]),

@@ -3,7 +3,7 @@ import { expect, test } from 'vitest';
 import { button, drag, drop, phaseIs, pixelsAre, saved, stored, tabTo } from './journeys';
 import { createTestBed } from './testBed';
 
-/** Clicks from the first sight of the page to a heart and a word that play. */
+/** Most clicks from opening the page until a heart and a word play. */
 const CLICKS_MAX = 8;
 
 const bed = createTestBed('--robots', '30');
@@ -37,7 +37,7 @@ test('somebody who never saw it makes a heart and a word with thirty robots, and
   await phaseIs(page, 'ready');
 });
 
-/** A photograph of something bright and round before something dark, as a PNG. */
+/** A PNG like a photograph: a bright disc before a dark background. */
 async function photograph(page: Page): Promise<Uint8Array> {
   const bytes = await page.evaluate(async () => {
     const canvas = new OffscreenCanvas(320, 240);

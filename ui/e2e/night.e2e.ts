@@ -16,7 +16,7 @@ import { phaseIs, smallShow } from './journeys';
 import { createBrowserBed } from './testBed';
 import { createHand, type Hand, type Means } from './hand';
 
-/** Width and height of the screen, what it is operated by, and its colours. */
+/** Width and height of the screen, CSS pixels, the device that operates it, and its colours. */
 const SCREENS: [number, number, Means, 'dark' | 'light'][] = [
   [1440, 900, 'keyboard', 'dark'],
   [720, 450, 'mouse', 'light'],
@@ -31,7 +31,7 @@ interface Night {
   broker: Broker;
   /** Waits until a text is seen. */
   see(text: string | RegExp): Promise<void>;
-  /** Keeps a picture where people want to look at them. */
+  /** Checks that the page is not wider than the screen; saves a picture if `SHOTS` names a folder. */
   look(what: string): Promise<void>;
 }
 
@@ -48,7 +48,7 @@ async function signIn({ page, hand, look }: Night, address: string) {
   await look('signed-in');
 }
 
-/** Six robots are known, and a seventh is let in; what ends one of them, and three. */
+/** Starts six known robots and lets a seventh join; answers what ends one of them, and what ends three. */
 async function admitRobots({ page, hand, broker, see, look }: Night) {
   const robots = (seed: string, ...places: string[]) =>
     startRobots(broker, places.length, ['--seed', seed, '--start', places.join(' ')]);
@@ -107,7 +107,7 @@ async function stopAndGoHome({ page, hand, see, look }: Night) {
   await look('stopped');
   expect(await findings(page)).toEqual([]);
   await hand.push('Play on from frame 1');
-  // Four are silent: the checklist says so first.
+  // Four robots are silent; the checklist names that first.
   await look('checklist');
   await hand.push('Play with 3 robots');
   await see(/^Playing frame/);

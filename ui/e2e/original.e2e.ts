@@ -18,7 +18,7 @@ async function exported(page: Page): Promise<OriginalFrame[]> {
   return JSON.parse(await readFile(await download.path(), 'utf8')) as OriginalFrame[];
 }
 
-/** Everything of a show that has a meaning, whatever order its pixels come in. */
+/** The parts of a show that have a meaning, with the pixels sorted by id. */
 const meaning = (frames: OriginalFrame[]) =>
   frames.map(({ name, airTime, pixels }) => ({
     name,
@@ -53,7 +53,7 @@ test('a show of the original: one colour changed, saved, reloaded, exported; all
   changed.color = { R: 1, G: Math.fround(0x2f / 255), B: Math.fround(0x92 / 255) };
   const found = await exported(page);
   expect(meaning(found)).toEqual(wanted);
-  // The original loads a file only if its own state is there too.
+  // The original loads a file only if the state of its editor is in it too.
   const keys = (frames: OriginalFrame[]) => Object.keys(frames[4]?.pixels[0] ?? {}).sort();
   expect(keys(found)).toEqual(keys(original));
 });

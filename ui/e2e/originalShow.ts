@@ -22,10 +22,12 @@ export interface OriginalPixel {
   pixelTimelineLocation: Place;
 }
 
+/** Number of frames of the show. */
 const FRAMES = 12;
+/** Number of robots of the show, and so of pixels in each frame. */
 const ROBOTS = 30;
 
-/** A show in the original's format: twelve turned rings of thirty, pixels in no order, as the original writes them. */
+/** A show in the original's format: turned, growing rings of pixels, not sorted by id, as the original writes them. */
 export function originalShow(): OriginalFrame[] {
   return Array.from({ length: FRAMES }, (_, index) => ({
     name: index === 0 ? 'Initial' : `Ring ${index}`,
@@ -39,7 +41,7 @@ export function originalShow(): OriginalFrame[] {
 function pixel(pixelId: number, frame: number): OriginalPixel {
   const angle = (2 * Math.PI * (pixelId + frame * 1.3)) / ROBOTS;
   const radius_m = 0.75 + 0.03 * frame;
-  // No minus before zero: there is none in a file.
+  // Adding 0 turns −0 into 0: files have no −0.
   const round = (n: number, k: number) => Math.round(n * k) / k + 0;
   const at = {
     X: round(radius_m * Math.cos(angle), 1e4),

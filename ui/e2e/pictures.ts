@@ -6,9 +6,9 @@ import { launchBrowser, openPage, startServer, type Server } from './harness';
 import { FIRST_VIEWS, VIEWS, type View } from './views';
 
 const docs = fileURLToPath(new URL('../../docs/', import.meta.url));
-/** Where pictures of every view go, for those who look over the whole screen; none are taken without it. */
+/** Folder for pictures of every view, for a review of the whole screen; undefined: none are taken. */
 const everything = process.env.LIGHTBOTS_PICTURES;
-/** Views whose pictures are in the README, and what they are called there. */
+/** Names of the README's pictures, without `.png`, by name of their view. */
 const README: Record<string, string> = {
   'live-playing': 'live',
   'edit-chosen': 'editor',
@@ -20,7 +20,7 @@ const SIZES = [
   { name: '2560', viewport: { width: 2560, height: 1440 } },
 ];
 
-/** Nothing fades in or out while a picture is taken. */
+/** Switches animations off, so that nothing fades in or out while a picture is taken. */
 const still = { reducedMotion: 'reduce' } as const;
 
 let browser: Browser;

@@ -16,7 +16,7 @@ test('a playlist is made on the screen, and its first show starts by itself', as
   const rows = panel.getByRole('list', { name: 'Playlist' }).getByRole('listitem');
   const dialog = page.getByRole('dialog');
 
-  // The first entry has the time of now: it is due as soon as the playlist is switched on.
+  // The first entry has the present time: it is due as soon as the playlist is switched on.
   await panel.getByRole('button', { name: 'Add to the playlist' }).click();
   await dialog.getByRole('combobox', { name: 'Show' }).selectOption('matinee');
   await dialog.getByRole('combobox', { name: 'Speed of drives' }).selectOption('50');
@@ -31,7 +31,7 @@ test('a playlist is made on the screen, and its first show starts by itself', as
   await countIs(rows, 1);
   expect(await findings(page)).toEqual([]);
 
-  // The second one by keyboard alone; it follows after a pause.
+  // The second entry is made by keyboard alone; it follows after a pause.
   await panel.getByRole('button', { name: 'Add to the playlist' }).focus();
   await page.keyboard.press('Enter');
   const heart = dialog.getByRole('option', { name: 'heart' });
@@ -51,7 +51,7 @@ test('a playlist is made on the screen, and its first show starts by itself', as
   await countIs(rows, 2);
   await rows.nth(1).getByText('Home, then 16 min after the show before · 100 %').waitFor();
 
-  // Moved to the front it has no show before it: the server says so, and the list stays.
+  // As the first entry it would have no show before it: the server refuses the move, and the list stays.
   await panel.getByRole('button', { name: 'Change heart, entry 2' }).focus();
   await page.keyboard.press('Alt+ArrowUp');
   await page
@@ -70,7 +70,7 @@ test('a playlist is made on the screen, and its first show starts by itself', as
     .waitFor();
   await panel.getByText('matinee plays now.').waitFor();
 
-  // On the live page it plays, a stop holds the rest, and Go on lets it continue.
+  // The live page shows that it plays. A stop holds the remaining entries until Go on is pressed.
   await page.goto(`${bed.server.url}/#/live`);
   await phaseIs(page, 'playing');
   await page.getByTestId('playlist-note').getByText('By schedule. matinee plays now.').waitFor();
@@ -84,7 +84,7 @@ test('a playlist is made on the screen, and its first show starts by itself', as
   );
   expect(state.today.map(({ result }) => result)).toEqual(['failed', 'waiting']);
 
-  // Removed and switched off, nothing is left that starts by itself.
+  // After the entry is removed and the playlist is switched off, no show starts by itself.
   await note.getByRole('button', { name: 'Playlist' }).click();
   await panel.getByRole('button', { name: 'Change heart, entry 2' }).focus();
   await page.keyboard.press('Delete');

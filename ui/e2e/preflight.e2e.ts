@@ -18,12 +18,12 @@ test('a preflight is explained, shows its progress, passes healthy robots and na
   const verdict = dialog.getByTestId('preflight-verdict');
   await verdict.getByText('All 4 robots passed.').waitFor();
 
-  // A real robot that reports once and does not answer: the others are tested, and it is named with a remedy.
+  // A real robot reports once and then does not answer: the others are tested, and it is named with a remedy.
   const leave = await introduceRealRobot(bed.server, 'mute-robot', -1, -1);
   await dialog.getByRole('button', { name: 'Again: Drive real robots' }).click();
   await verdict.getByText('4 of 5 robots passed.').waitFor({ timeout: 120_000 });
   const named = dialog.getByRole('list', { name: 'Robots with faults' }).getByRole('listitem');
-  // The list comes with the next message about the robots, a moment after the verdict.
+  // The list comes with the next message about the robots, shortly after the verdict.
   await named.first().waitFor();
   expect(await named.count()).toBe(1);
   expect(await named.textContent()).toMatch(/mute-rob.*It does not report\. Charge it/s);

@@ -10,7 +10,10 @@ const packet = (kind: number, ...parts: Buffer[]) => {
   return Buffer.concat([Buffer.from([kind, body.length]), body]);
 };
 
-/** A robot of the original protocol introduces itself: nothing says that it is simulated. Resolves once it did. */
+/**
+ * Connects to the server's embedded broker as a robot of the original protocol does, and sends its first message, with
+ * its place in stage metres. The robot counts as real. Answers what disconnects it.
+ */
 export async function introduceRealRobot(server: Server, name: string, x: number, y: number) {
   const settings = await fetch(`${server.url}/api/broker`);
   const { embedded } = (await settings.json()) as { embedded: string };
@@ -19,7 +22,7 @@ export async function introduceRealRobot(server: Server, name: string, x: number
   const [user, password] = [text('default'), text('default')];
   const about = Buffer.from([4, 0xc2, 0, 60]);
   socket.write(packet(0x10, text('MQTT'), about, text(`LightBot/${name}`), user, password));
-  // The broker's yes.
+  // The broker answers that it accepts the connection.
   await new Promise((resolve, reject) => socket.once('data', resolve).once('error', reject));
   socket.write(packet(0x30, text('T/LightBot/UUID'), Buffer.from(`${name} ${x} ${y}`)));
   return () => socket.destroy();

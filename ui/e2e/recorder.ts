@@ -2,22 +2,23 @@ import { spawn, type ChildProcess } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 
+/** Samples a second. */
 const RATE_HZ = 48_000;
-/** Samples from which on a click is heard; full scale is 1. */
+/** Least absolute value of a sample that counts as a click; full scale is 1. */
 const LOUD = 0.08;
-/** Least time between two clicks, seconds. */
+/** Least time between the beginnings of two clicks, seconds. */
 const APART_S = 0.25;
 
-/** A sound device without a loudspeaker, and what was played to it. */
+/** A sound device without a loudspeaker, and the clicks that were played on it. */
 export interface Recorder {
-  /** For the process that plays. */
+  /** Environment variables for the process that plays. */
   env: Record<string, string>;
-  /** When clicks began to be heard, milliseconds of the machine's clock. */
+  /** When the clicks until now began, milliseconds of the machine's clock. */
   clicks_ms(): number[];
   end(): void;
 }
 
-/** Starts PulseAudio with a device that plays nowhere, and records it. Throws where PulseAudio is not installed. */
+/** Starts PulseAudio with a device without a loudspeaker, and records it. Throws if PulseAudio is not installed. */
 export async function startRecorder(folder: string): Promise<Recorder> {
   const home = join(folder, 'pulse');
   mkdirSync(home, { recursive: true, mode: 0o700 });
@@ -53,7 +54,7 @@ export async function startRecorder(folder: string): Promise<Recorder> {
   tape.stdout?.on('data', (piece: Buffer) => {
     pieces.push(piece);
     bytes += piece.length;
-    // The piece that came soonest after it was recorded tells best when the tape began.
+    // The piece with the smallest delay tells best when the recording began.
     began_ms = Math.min(began_ms, Date.now() - (1000 * bytes) / 2 / RATE_HZ);
   });
   return {
@@ -63,7 +64,7 @@ export async function startRecorder(folder: string): Promise<Recorder> {
   };
 }
 
-/** When loud sounds begin, seconds. */
+/** When loud sounds in a recording begin, seconds. */
 function onsets(tape: Buffer): number[] {
   const found: number[] = [];
   for (let i = 0; i + 1 < tape.length; i += 2) {

@@ -23,7 +23,7 @@ test('a run ends with its report: read in a tab, saved as a file, and in the lis
     note.getByRole('link', { name: 'Read the report' }).click(),
   ]);
   await report.getByRole('heading', { name: OUTCOME }).waitFor();
-  // Its script runs, and gets nothing of the server.
+  // The report's script runs, but its origin is opaque, so that it can read nothing of the server.
   const now = report.locator('#now');
   await report.getByLabel('Moment of the show').fill('1');
   expect(await now.textContent()).toBe('0:01.0');

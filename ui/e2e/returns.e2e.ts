@@ -20,7 +20,7 @@ test('a show whose program was killed asks whether it goes on, and does or is ov
 
   await bed.server.kill();
   await bed.server.restart();
-  // A screen that comes later is asked, too.
+  // A screen that is opened later shows the question, too.
   const second = await bed.open();
   await second.getByRole('alert').getByRole('button', { name: 'Stop' }).click();
   await phaseIs(page, 'ready');

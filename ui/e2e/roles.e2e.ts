@@ -16,7 +16,7 @@ afterAll(async () => {
   await server.remove();
 });
 
-/** A page in a browser of its own, on the sign-in page or at the one-time address. */
+/** Opens the sign-in page or the one-time address, in a browser context of its own. */
 async function arrive(address = ''): Promise<Page> {
   const context = await browser.newContext({
     ignoreHTTPSErrors: true,

@@ -28,7 +28,7 @@ test('a show opened on another screen leaves this editor alone, and its address 
   expect(frames[0]?.pixels.every((p) => p.color === '#b14cff')).toBe(true);
   expect(await second.getByTestId('show-name').textContent()).toBe('countdown');
 
-  // The link leads another screen to the same show, and the open one stays open.
+  // The link leads another screen to the same show; the server's open show stays open.
   await second.goto(page.url());
   await pixelsAre(second, 6);
   expect(await second.getByTestId('show-name').textContent()).toBe('mine');

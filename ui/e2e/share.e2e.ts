@@ -21,7 +21,7 @@ const shoot = async (page: Page, name: string) => {
 
 const HASH = 'a'.repeat(64);
 
-/** A show with two files, and light that uses one. */
+/** A show that lists two files, which nothing in it uses. */
 const showWithFiles = () =>
   JSON.stringify({
     ...(JSON.parse(smallShow(6)) as object),
@@ -33,7 +33,7 @@ const showWithFiles = () =>
     },
   });
 
-/** Edits a show that is uploaded, and opens the dialog with its link. */
+/** Uploads a show in the editor, and opens the dialog with its link. */
 async function openLink(page: Page, name: string, text: string) {
   await uploadText(page, `${name}.json`, text);
   await pixelsAre(page);
@@ -49,7 +49,7 @@ const names = (page: Page) =>
     ((await (await fetch('/api/shows')).json()) as { name: string }[]).map(({ name }) => name),
   );
 
-/** Opens the address that holds a packed show, on another installation. */
+/** Opens the packed show of a link on `server`. */
 async function follow(page: Page, server: Server, link: string) {
   await page.goto(`${server.url}/${new URL(link).hash}`);
   await page.getByRole('button', { name: 'Leave' }).waitFor();
@@ -92,7 +92,7 @@ test('a link opens the same show on another installation, and saves nothing befo
   expect(second.url()).toMatch(/#\/edit\/Gr/);
   const [sent, got] = [await stored(page, 'greeting'), await stored(second, 'Grüße')];
   expect(got).toEqual(sent);
-  // A second time the name is taken.
+  // When the link is opened again, the name is taken.
   await follow(second, other, link);
   await button(second, 'Open as a new show').click();
   await pixelsAre(second, 6);
@@ -125,7 +125,7 @@ test('a link that was cut off, or holds no show, is refused and nothing is lost'
 test('a show that is too large for a link is to be saved as a file', async () => {
   const page = await bed.open('edit');
   const show = JSON.parse(smallShow(1)) as { frames: { pixels: object[] }[] };
-  // Places that cannot be packed.
+  // Random places and colours, which compression hardly shortens.
   let seed = 1;
   const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
   const pixels = Array.from({ length: 900 }, (_, id) => ({
@@ -142,7 +142,7 @@ test('a show that is too large for a link is to be saved as a file', async () =>
   expect(await findings(page)).toEqual([]);
 });
 
-/** The same pixels in another order of places in each frame, so that no frame packs into a reference to another. */
+/** Gives the pixels of each frame places in another order, so that no frame is packed as a reference to another. */
 const mixed = <T extends { pixels: { place: number[] }[] }>(frames: T[]) =>
   frames.map((frame, shift) => ({
     ...frame,

@@ -3,7 +3,7 @@ import { firstAddress, openPage, startServer, type Server } from './harness';
 
 const PASSWORD = 'a long password';
 
-/** A server on the network, which asks for sign-in, with an operator, an editor and a viewer. */
+/** Starts a server on the network that asks for sign-in, with an operator, an editor and a viewer, named so. */
 export async function startSignInServer(...more: string[]): Promise<Server> {
   const server = await startServer('--listen', '0.0.0.0:0', '--plain-http', ...more);
   const token = (await firstAddress(server)).replace('#first=', '');
@@ -22,7 +22,7 @@ export async function startSignInServer(...more: string[]): Promise<Server> {
   return server;
 }
 
-/** A page after signing in. */
+/** Opens a page of a signed-in person with this role. */
 export async function openAs(
   browser: Browser,
   server: Server,

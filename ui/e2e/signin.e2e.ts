@@ -23,7 +23,7 @@ async function submit(page: Page, password: string, button: string) {
   await page.getByRole('button', { name: button }).click();
 }
 
-/** The status of the page's own session. */
+/** HTTP status of a request for the page's session: 200 while it is signed in. */
 const session = (page: Page) => page.evaluate(async () => (await fetch('/api/session')).status);
 
 test('the first operator comes by the one-time address, signs out, and signs in again', async () => {

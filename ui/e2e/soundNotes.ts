@@ -1,16 +1,18 @@
-/** What a page noted of its music and of the show. */
+/** Measurements of a page about its music and the show. */
 export interface SoundNotes {
+  /** How many times music was started. */
   starts: number;
+  /** How many times music was stopped. */
   stops: number;
-  /** How far music is ahead of the show, as the sound device says, milliseconds. */
+  /** Time by which music is ahead of the show by the sound device's clock, milliseconds. */
   ahead_ms: number[];
-  /** Where the show was then, seconds. */
+  /** Show time at each of these measurements, seconds. */
   at_s: number[];
-  /** Where the show was, seconds, at moments of the machine's clock. */
+  /** Show time, seconds, at moments of the machine's clock, milliseconds. */
   shows: { wall_ms: number; show_s: number; runs: boolean }[];
 }
 
-/** Notes when music is started and stopped, and how far it is ahead of the show, as the sound device says. */
+/** Runs in a page before its scripts: counts starts and stops of music, and measures the time by which it is ahead. */
 export function noteSound() {
   const sound: SoundNotes = { starts: 0, stops: 0, ahead_ms: [], at_s: [], shows: [] };
   Object.assign(globalThis, { sound });
@@ -27,7 +29,7 @@ export function noteSound() {
     since = null;
     stop.call(this);
   };
-  // The page's own message handler is not used: the difference of clocks is taken from the quickest message.
+  // This does not rely on the page's code: the difference of clocks is taken from the message with the smallest delay.
   let [offset_ms, handled] = [Infinity, 0];
   const RealSocket = globalThis.WebSocket;
   globalThis.WebSocket = class extends RealSocket {
@@ -51,7 +53,7 @@ export function noteSound() {
         if (heard_s < since.at_s) return;
         const show_s = show_time.show_s + (now_ms - offset_ms - at_ms) / 1000;
         const position_s = since.from_s + (heard_s - since.at_s) * since.rate;
-        // The player makes it a little faster or slower.
+        // The player makes the music a little faster or slower.
         const rate = since.node.playbackRate.value;
         if (rate !== since.rate) since = { ...since, at_s: heard_s, from_s: position_s, rate };
         sound.ahead_ms.push(1000 * (position_s - show_s));

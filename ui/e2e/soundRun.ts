@@ -9,14 +9,17 @@ import { startRecorder } from './recorder';
 import { noteSound, type SoundNotes } from './soundNotes';
 import { createBrowserBed } from './testBed';
 
+/** Duration of the test, minutes. */
 const MINUTES = Number(process.env.MINUTES ?? 5);
+/** Number of robots of the show. */
 const ROBOTS = 30;
-/** One robot stands still for this long, again and again: some of these times are in a drive, and all others hold. */
+/** Time for which one robot is stopped in every `EVERY_MS`, milliseconds; in a drive, all other robots hold then. */
 const LATE_MS = 1500;
+/** Time from one stop of the robot to its next, milliseconds. */
 const EVERY_MS = 17_000;
 const bed = createBrowserBed('sound');
 
-/** Two rows that step towards the audience and back, for as long as the music lasts. */
+/** A show of two rows of robots that go 0.3 m along y and back, until the end of the music. */
 function show(): string {
   const frames = Array.from({ length: MINUTES * 5 }, (_, frame) => ({
     name: `Row ${frame + 1}`,
@@ -55,7 +58,7 @@ const print = (clock: string, ahead_ms: readonly number[]) => {
   process.stdout.write(`\n${JSON.stringify(row)}\n`);
 };
 
-/** How far clicks that were recorded are ahead of the show, milliseconds. */
+/** Time by which recorded clicks are ahead of the show, milliseconds; without clicks while the show did not run. */
 function aheadOf(recorded_ms: readonly number[], shows: SoundNotes['shows']): number[] {
   return recorded_ms.flatMap((heard_ms) => {
     const last = shows.findLast((one) => one.wall_ms <= heard_ms);

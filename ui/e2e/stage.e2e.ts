@@ -23,7 +23,7 @@ const bed = createTestBed('--robots', '12');
 const item = (page: Page, name: string) => page.getByRole('menuitem', { name });
 const frames = (page: Page) => page.getByRole('list', { name: 'Frames' }).locator('li');
 
-/** Where a pixel is while the whole floor is shown. */
+/** Place of a pixel on the screen while the whole floor is shown, CSS pixels. */
 async function at(page: Page, id: number) {
   const pixel = (await pixels(page))[id];
   return onScreen(page, pixel?.x ?? 0, pixel?.y ?? 0);
@@ -165,7 +165,7 @@ test('the history leads back and forth to any state, by pointer and by keyboard'
   await states.first().waitFor({ state: 'detached' });
   await tabTo(page, 'button', 'History');
   await page.keyboard.press('Enter');
-  // Keys before the menu has the focus are lost.
+  // Keys that are pressed before the menu has the focus are lost.
   await page.locator('[role=menuitemradio]:focus, [role=menu]:focus').waitFor();
   await page.keyboard.press('Home');
   await page.locator('[role=menuitemradio]:focus').first().waitFor();
@@ -200,7 +200,7 @@ test('several frames are chosen with Ctrl and Shift: coloured, timed, copied, mo
     true,
     false,
   ]);
-  // Ctrl and a click on a chosen frame leave it out.
+  // A click with Ctrl on a chosen frame takes it out of the choice.
   await card(2).click({ modifiers: ['Control'] });
   await page.getByText('Frame 1', { exact: true }).waitFor();
   await page.keyboard.press('Shift+PageDown');

@@ -10,7 +10,7 @@ const bed = createTestBed('--robots', '30');
 const card = (page: Page, title: string) =>
   page.getByRole('button', { name: new RegExp(`^${title}`) });
 
-/** The plan of the open show, once it is made. */
+/** Waits until the open show is planned, and answers the plan. */
 const planned = (page: Page) =>
   eventually(
     () =>
@@ -30,7 +30,7 @@ test('each template becomes a show for the robots that are here, which can be pl
       .getByText(/shown for/)
       .waitFor();
     await card(page, title).click();
-    // An example may have that name already.
+    // An example may have that name already; then the show's name ends with 2.
     await page
       .getByTestId('open-library')
       .getByText(new RegExp(`^${title}( 2)?$`))

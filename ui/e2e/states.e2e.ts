@@ -32,7 +32,7 @@ test('an earlier save is looked at and restored in two clicks, and restoring los
   const rows = states.locator('> li');
   await countIs(rows, 4);
   await countIs(states.locator('canvas'), 4);
-  // A closer look, if it is wanted: all frames.
+  // A state can be expanded to show all its frames.
   await rows.nth(2).getByRole('button', { expanded: false }).click();
   await countIs(page.getByRole('list', { name: 'Frames of the state' }).locator('li'), 2);
   // The second click restores.

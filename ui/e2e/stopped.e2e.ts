@@ -76,14 +76,14 @@ test('half the speed is offered until these robots have played the show to its e
     await page.getByText('Playing frame 1 of 2').waitFor();
   };
 
-  // A run that is stopped is no show that was played.
+  // A run that is stopped does not count as played to its end.
   await playAtHalfSpeed();
   await button(page, 'Abort (Esc)').click();
   await phaseIs(page, 'ready');
   await atFullSpeed();
   await offer.waitFor();
   await dialog.getByRole('button', { name: 'Not now' }).click();
-  // Keys are the dialog's until it has faded out.
+  // The dialog receives keys until it has faded out.
   await countIs(page.locator('[role="dialog"]'), 0);
 
   await playAtHalfSpeed();

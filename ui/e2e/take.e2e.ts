@@ -50,7 +50,7 @@ test('a list and a show are dropped, and another show takes the place of this on
   await drop(page, { files: { 'list.csv': list } });
   await verdict(page).getByText('Room for all 30 robots').waitFor();
   await button(page, 'Cancel').click();
-  // Its name does not say that it is a show, so that the module looks.
+  // The file's name does not tell that it is a show, so that its content is examined.
   await drop(page, { files: { 'other.txt': smallShow(12) } });
   await page.getByText('Imported and opened "other.txt".').waitFor();
   await pixelsAre(page, 12);

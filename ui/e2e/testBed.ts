@@ -8,15 +8,15 @@ import { endOthers, launchBrowser, mistakes, openPage, startServer, type Server 
 type View = Parameters<typeof openPage>[2];
 type Options = Parameters<typeof openPage>[3];
 
-/** What a file of tests stands on: one server and one browser for all of them. */
+/** One server and one browser for all tests of a file. */
 export interface TestBed {
   readonly browser: Browser;
   readonly server: Server;
-  /** A page of that server, closed when the test is over. */
+  /** Opens a page of that server, which is closed when the test is over. */
   open(view?: View, options?: Options): Promise<Page>;
 }
 
-/** What a failed test left: the text of its pages, and what the server said last. */
+/** The texts of a failed test's pages and the end of the server's output. */
 async function remains(pages: readonly Page[], server: Server): Promise<string> {
   const shows = async (page: Page) => {
     const text = await page.locator('body').innerText({ timeout: 5_000 }).catch(String);
@@ -26,7 +26,10 @@ async function remains(pages: readonly Page[], server: Server): Promise<string> 
   return [...(await Promise.all(pages.map(shows))), said].join('\n');
 }
 
-/** Starts `lightbots run` with these arguments and a browser before the tests of a file, and ends both after them. */
+/**
+ * Starts `lightbots run` with these arguments and a browser before the tests of a file, and ends both after them. Then
+ * it checks that there were no `mistakes`.
+ */
 export function createTestBed(...serverArguments: string[]): TestBed {
   let browser: Browser | undefined;
   let server: Server | undefined;
@@ -40,7 +43,7 @@ export function createTestBed(...serverArguments: string[]): TestBed {
   });
   afterEach(async ({ task }) => {
     const open = pages.splice(0);
-    // The message of the error stands in the summary, which comes last.
+    // The summary, which comes last, contains the error's message.
     const error = task.result?.errors?.[0];
     if (error) error.message += `\n${await remains(open, there(server))}`;
     await Promise.all(open.map((page) => page.close()));
@@ -66,7 +69,7 @@ export function createTestBed(...serverArguments: string[]): TestBed {
   };
 }
 
-/** What a file of tests stands on that starts servers of its own: a browser, and a folder for files. */
+/** A browser and a folder for files, both removed at the end, for a file of tests that starts servers of its own. */
 export function createBrowserBed(name: string) {
   let browser: Browser | undefined;
   const folder = mkdtempSync(join(tmpdir(), `lightbots-${name}-`));

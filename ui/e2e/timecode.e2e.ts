@@ -5,15 +5,15 @@ import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '6');
 
-/** What the page of the test has instead of a MIDI device. */
+/** What the test's page has in place of a MIDI device. */
 interface FakeMidi {
-  /** Sends quarter frames of 25 frames a second from a time on, seconds. */
+  /** Sends quarter frames at 25 frames a second, from the time `from_s` on, seconds. */
   runCode(from_s: number): void;
   stopCode(): void;
   hit(note: number): void;
 }
 
-/** Puts a MIDI device into the page; its code runs by the clock of the page. */
+/** Runs in the page: puts a MIDI device into it. Its time code runs by the page's clock. */
 function fakeMidi() {
   const input = {
     name: 'Desk',
@@ -27,7 +27,7 @@ function fakeMidi() {
       const began_ms = performance.now();
       let sent = 0;
       timer = setInterval(() => {
-        // Pages wake up late: what is due is sent at once.
+        // Timers of pages are late: all pieces that are due are sent at once.
         for (; began_ms + sent * 10 <= performance.now(); sent++) {
           const frame = Math.round(from_s * 25) + 2 * Math.floor(sent / 8);
           const [frames, all] = [frame % 25, Math.floor(frame / 25)];
@@ -46,7 +46,7 @@ function fakeMidi() {
   Object.assign(window, { fakeMidi: midi });
 }
 
-/** What the test says to the device of the page. */
+/** Calls a function of the page's device. */
 const say = (page: Page, act: keyof FakeMidi, value: number) =>
   page.evaluate(
     ([name, number]) => {
@@ -56,7 +56,7 @@ const say = (page: Page, act: keyof FakeMidi, value: number) =>
     [act, value] as const,
   );
 
-/** Opens a show on the live page, with the device in use. */
+/** Uploads a show on the live page, and lets the page use the device. */
 async function withDevice(name: string, show: string) {
   const page = await bed.open('live');
   await page.addInitScript(fakeMidi);
@@ -80,7 +80,7 @@ test('time code plays a show, and pauses it where it jumps or stops', async () =
   await say(page, 'runCode', 10 * 60 - 2);
   await page.getByText(/^Time code 00:09:5/).waitFor();
   await phaseIs(page, 'playing');
-  // Code and show are compared from the first picture on; the drive there takes some seconds.
+  // Time code and show are compared from the first frame on; the drive to it takes some seconds.
   await page.getByText('Playing frame 1 of 2').waitFor();
   await page.waitForTimeout(8_000);
   await say(page, 'runCode', 11 * 60);

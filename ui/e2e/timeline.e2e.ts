@@ -7,7 +7,7 @@ import { createTestBed } from './testBed';
 
 const bed = createTestBed('--robots', '12');
 
-/** What the tests look at of a stored show. */
+/** The parts of a stored show that these tests check. */
 interface StoredTimes {
   lightbots: number;
   frames: { air_time_s: number; transition_s?: number }[];
@@ -31,7 +31,7 @@ async function drives(page: Page, nth: number): Promise<{ least_s: number; trave
   return { travel_s, least_s: least === undefined ? travel_s : Number(least) };
 }
 
-/** A show of two or more frames on the timeline, planned. */
+/** Uploads a show of two frames, with `more` in its document; shows the timeline and waits for the plan. */
 async function begin(page: Page, name: string, more: object = {}): Promise<void> {
   const show = { ...(JSON.parse(smallShow(12, 2)) as object), ...more };
   await uploadText(page, `${name}.json`, JSON.stringify(show));
@@ -40,7 +40,7 @@ async function begin(page: Page, name: string, more: object = {}): Promise<void>
   await page.getByRole('option', { name: /^Frame 2 Two: drive [\d.]+ s/ }).waitFor();
 }
 
-/** Drags by mouse from the middle of something, CSS pixels. */
+/** Drags with the mouse from the middle of the first element that matches, `by_px` CSS pixels to the right. */
 async function dragBy(page: Page, selector: string, by_px: number) {
   const box = await page.locator(selector).first().boundingBox();
   if (!box) throw new Error(`There is no ${selector}.`);
@@ -95,7 +95,7 @@ describe('the timeline', () => {
     const after = await times(page, 'edges');
     expect(after.frames).toEqual(before.frames);
     expect(after.markers).toBeUndefined();
-    // Only the show's name, which a save writes, may differ; it is version 1 as before.
+    // The document is of version 1 as before; only the show's name, which every save writes, may differ.
     expect(after.lightbots).toBe(1);
   });
 
@@ -178,7 +178,7 @@ describe('the timeline', () => {
       (at_s) => at_s > 2,
       'the ruler moves the playhead',
     );
-    // The choice of the timeline is kept.
+    // After loading again, the page still shows the timeline.
     await page.reload();
     await blocks(page).first().waitFor();
   });

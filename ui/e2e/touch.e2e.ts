@@ -19,7 +19,7 @@ const bed = createTestBed('--robots', '12');
 
 const TABLET = { viewport: { width: 1024, height: 768 }, hasTouch: true };
 
-/** Fingers of one hand on the glass. */
+/** Touches the page with several fingers at once. */
 function fingers(client: CDPSession) {
   const send = (type: 'touchStart' | 'touchMove' | 'touchEnd', places: At[]) =>
     client.send('Input.dispatchTouchEvent', {
@@ -29,7 +29,7 @@ function fingers(client: CDPSession) {
   return {
     down: (...places: At[]) => send('touchStart', places),
     up: () => send('touchEnd', []),
-    /** Straight from one set of places to another. */
+    /** Moves each finger straight from one place to another, in five steps. */
     async move(from: At[], to: At[]) {
       for (let k = 1; k <= 5; k++)
         await send(
@@ -61,7 +61,7 @@ test('a finger chooses and drags, held still it adds, two zoom and pan', async (
   await hand.down(sixth);
   await chosenAre(page, [0, 6]);
   await hand.up();
-  // Lifted where it rested, it also gets the menu of what is chosen.
+  // Lifting the finger where it rested opens the menu of the chosen pixels.
   await page.getByRole('menuitem', { name: 'Group' }).first().waitFor();
   await page.touchscreen.tap(sixth.x, sixth.y);
   await chosenAre(page, [6]);
@@ -122,7 +122,7 @@ test('whatever is pressed on a tablet is large enough for a finger', async () =>
   }
 });
 
-/** A show of so many frames, each with its number as its name. */
+/** A show of `frames` frames, each with its number as its name. */
 function longShow(frames: number): string {
   const show = JSON.parse(smallShow(6)) as { frames: { name: string }[] };
   const [first] = show.frames;

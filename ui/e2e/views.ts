@@ -12,12 +12,12 @@ import {
   uploadText,
 } from './journeys';
 
-/** A state of the screen that is looked at: by people in pictures, by axe in tests. */
+/** A state of the screen, for pictures and for checks by axe. */
 export interface View {
   name: string;
-  /** Leads there from wherever the page is. */
+  /** Leads to this view from the one before it in its list. */
   show(page: Page, server: Server): Promise<void>;
-  /** Leads away, so that the next view can be shown. */
+  /** Leads away from it, so that the next view can be shown. */
   leave?(page: Page): Promise<void>;
 }
 
@@ -65,7 +65,7 @@ function showWithCue(): string {
   return JSON.stringify({ ...show, lightbots: 2, cues: [{ name: 'Curtain', frame: 'first' }] });
 }
 
-/** A show of thirty robots with all that the timeline shows. */
+/** The same show with a marker, a section and layers, which the timeline shows. */
 function showWithMarks(): string {
   const show = JSON.parse(showWithCue()) as object;
   return JSON.stringify({
@@ -159,7 +159,7 @@ const liveViews: View[] = [
   },
 ];
 
-/** Robots that die while the page looks; they are forgotten afterwards. */
+/** Two robots that fall silent while the page is open; `leave` removes them with Forget. */
 const deadRobots: View = {
   name: 'live-dead-robots',
   async show(page, server) {
@@ -189,7 +189,7 @@ const deadRobots: View = {
   },
 };
 
-/** What the checklist says when robots are missing. */
+/** The checklist when robots are missing. */
 const missing: View = {
   name: 'checklist-missing',
   async show(page, server) {
@@ -212,7 +212,7 @@ const missing: View = {
   },
 };
 
-/** Somebody else saved: the server says so to whatever this page saves. */
+/** The dialog after another person changed the show: every save of this page is answered with status 412. */
 const conflict: View = {
   name: 'edit-conflict',
   async show(page, server) {
@@ -367,7 +367,7 @@ const editViews: View[] = [
   },
 ];
 
-/** Views of a server that has no robots, to a page that has not seen the tour. */
+/** Views of a server without robots, in a page that has not shown the tour. */
 export const FIRST_VIEWS: readonly View[] = [
   {
     name: 'live-empty',
@@ -384,5 +384,5 @@ export const FIRST_VIEWS: readonly View[] = [
   },
 ];
 
-/** Every view of a server with robots, in an order in which each follows from the one before. */
+/** Every view of a server with robots; each begins where the one before it ended. */
 export const VIEWS: readonly View[] = [...liveViews, deadRobots, missing, ...editViews, conflict];

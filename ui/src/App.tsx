@@ -23,12 +23,12 @@ const StartPage = lazy(() => import('./start/StartPage'));
 
 const SharedPage = lazy(() => import('./start/SharedPage'));
 
-/** Loaded on a projector's computer. */
+/** Loaded when the audience view is first shown, often on a projector's computer. */
 const AudiencePage = lazy(() => import('./audience/AudiencePage'));
 
 const FitDialog = lazy(() => import('./fit/FitDialog'));
 
-/** The dialog that fits the open show to the robots that are there. */
+/** The dialog that fits the show to a number of robots, while `fitting` of the session says one. */
 function Fitting() {
   const robots = useStore(useSession().fitting);
   return robots === null ? null : (
@@ -38,7 +38,7 @@ function Fitting() {
   );
 }
 
-/** A view with the header above it. */
+/** A view with the header above it: all but the audience view. */
 type WorkView = Exclude<View, 'audience'>;
 
 const PAGES: Record<WorkView, ReactNode> = {
@@ -56,7 +56,7 @@ const PAGES: Record<WorkView, ReactNode> = {
   ),
 };
 
-/** The header, what the whole program has to say, and the view below. */
+/** The header, banners, the view below them, and dialogs that any view may open. */
 function Work({ view }: { view: WorkView }) {
   return (
     <>

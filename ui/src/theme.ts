@@ -1,11 +1,11 @@
 import { createTheme, type CSSVariablesResolver, type MantineColorsTuple } from '@mantine/core';
 
-/** Ten shades for Mantine, from light to dark; values are tokens, which know dark and light by themselves. */
+/** Shades of a colour for Mantine, from names of tokens in tokens.css, which differ between the two schemes. */
 const shades = (...tokens: string[]) =>
   tokens.map((token) => `var(--${token})`) as unknown as MantineColorsTuple;
 const one = (token: string) => shades(...Array<string>(10).fill(token));
 
-/** The surfaces and texts of Mantine's components in the dark scheme. */
+/** Mantine's ten shades of `dark`, its surfaces and texts in the dark scheme, from the text to the background. */
 const dark = shades(
   'ink',
   'ink',
@@ -18,7 +18,7 @@ const dark = shades(
   'ground',
   'ground',
 );
-/** The same in the light scheme. */
+/** Mantine's ten shades of `gray`, its surfaces and texts in the light scheme, from the background to the text. */
 const gray = shades(
   'over',
   'ground',
@@ -32,7 +32,7 @@ const gray = shades(
   'ink',
 );
 
-/** What Mantine's variants of a colour are made of. */
+/** Tokens that Mantine's variants (filled, light, outline) of a colour are made of. */
 interface Tone {
   fill: string;
   hover: string;
@@ -80,7 +80,7 @@ const SURFACES = {
   '--mantine-color-disabled-border': 'var(--line)',
 };
 
-/** Mantine's variables of both schemes, made of the tokens. */
+/** Mantine's variables, the same for both schemes, because the tokens differ between them. */
 export const mantineVariables: CSSVariablesResolver = () => {
   const colours = { ...SURFACES, ...Object.fromEntries(Object.entries(TONES).flatMap(variantsOf)) };
   return { variables: {}, dark: colours, light: colours };
@@ -91,7 +91,7 @@ interface Filled {
   color?: string;
 }
 
-/** Text and border on a filled lamp: dark on bright amber in both schemes. Text on other fills: the panel's colour. */
+/** Colour of text on filled buttons or badges, by the fill: lamp and stop have their own, others that of the panel. */
 const onFill =
   (part: 'button' | 'badge') =>
   (_: unknown, { variant = 'filled', color = 'lamp' }: Filled) => {

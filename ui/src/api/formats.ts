@@ -9,7 +9,8 @@ export const OWN_FORMAT: Format = FORMATS[0];
 /** The endings of every format, in lower case. */
 export const ENDINGS: readonly string[] = FORMATS.flatMap((format) => [...format.endings]);
 
-/** What a file dialog offers: the last extension of every ending, because dialogs know no longer ones, and media types. */
+/** What a file dialog offers: the last part of each ending (`.zip` of `.csv.zip`), because dialogs know only that, and
+ * media types. */
 export const ACCEPTED = [
   ...new Set([
     ...ENDINGS.map((ending) => ending.slice(ending.lastIndexOf('.'))),
@@ -17,10 +18,10 @@ export const ACCEPTED = [
   ]),
 ].join(',');
 
-/** The ending that a written file of each format gets, in words. */
+/** The first ending of each format, joined by "or". */
 export const ENDINGS_IN_WORDS = FORMATS.map((format) => format.endings[0]).join(' or ');
 
-/** A file's name without the ending of its format. */
+/** A file's name without the longest ending of a format that it has. */
 export function stem(file: string): string {
   const lower = file.toLowerCase();
   const fitting = ENDINGS.filter((ending) => lower.endsWith(ending)).map((ending) => ending.length);

@@ -13,7 +13,7 @@ import type {
   ShowState,
 } from './types.gen';
 
-/** Something the server refused, in its words. */
+/** A request that failed, with the server's message. `status`: of HTTP; 0: the server could not be reached. */
 export class Refused extends Error {
   constructor(
     readonly status: number,
@@ -45,7 +45,7 @@ const showPath = (name: string) => `/api/shows/${encodeURIComponent(name)}`;
 
 export const listShows = async () => (await (await request('/api/shows')).json()) as ShowEntry[];
 
-/** The document of a show in the library, and its version. */
+/** The document of a show in the library, and its version; null: the answer names none. */
 export async function getShow(name: string): Promise<{ document: unknown; etag: string | null }> {
   const response = await request(showPath(name));
   return { document: await response.json(), etag: response.headers.get('etag') };
@@ -54,7 +54,7 @@ export async function getShow(name: string): Promise<{ document: unknown; etag: 
 /** The file of a show as the library keeps it, with everything that the screen does not know. */
 export const getFile = async (name: string) => (await request(`${showPath(name)}/file`)).blob();
 
-/** Saves a file of any format. `etag`: the version it replaces; `'new'`: only if there is none of that name. */
+/** Saves a file of any format. `etag`: the version it replaces; `'new'`: only if the name is free; null: whatever. */
 export async function putShow(
   name: string,
   body: BodyInit,
@@ -68,8 +68,8 @@ export async function putShow(
 }
 
 /**
- * Deletes a show of the library, if it still has the version `etag`. `renamedTo`: the show under its new name, which gets
- * the earlier states.
+ * Deletes a show of the library, if it still has the version `etag`; null: whatever its version. `renamedTo`: name of
+ * a show that gets the earlier states.
  */
 export const deleteShow = (name: string, etag: string | null, renamedTo: string | null = null) =>
   request(
@@ -81,7 +81,7 @@ export const deleteShow = (name: string, etag: string | null, renamedTo: string 
 export const listStates = async (name: string) =>
   (await (await request(`${showPath(name)}/states`)).json()) as ShowState[];
 
-/** The document of a saved state; `null`: of the show as it is. */
+/** The document of the saved state with that number; `null`: of the show as it is. */
 export async function getState(name: string, number: number | null): Promise<unknown> {
   const path = number === null ? '' : `/states/${number}`;
   return (await request(`${showPath(name)}${path}`)).json();
@@ -93,7 +93,7 @@ export const listRuns = async () => (await (await request('/api/runs')).json()) 
 /** The address of a run's report. */
 export const reportAddress = (number: number) => `/api/runs/${number}/report`;
 
-/** What the form for the broker begins with. */
+/** The kept settings of the broker, without secrets. */
 export const getBroker = async () =>
   (await (await request('/api/broker')).json()) as BrokerSettings;
 
@@ -106,11 +106,11 @@ export const convertShow = async (body: BodyInit, to: FormatName) =>
 
 const assetPath = (hash: string) => `/api/assets/${hash}`;
 
-/** A file that shows name by its SHA-256. */
+/** The bytes of a file by its SHA-256, which shows name. */
 export const getAsset = async (hash: string) =>
   new Uint8Array(await (await request(assetPath(hash))).arrayBuffer());
 
-/** Keeps a file for the shows that name it. */
+/** Sends a file to the server under its SHA-256, so that shows can name it. */
 export const putAsset = (hash: string, bytes: Uint8Array<ArrayBuffer>) =>
   request(assetPath(hash), { method: 'PUT', body: bytes });
 
@@ -136,7 +136,7 @@ export const changePerson = (name: string, change: PersonChange) =>
 export const removeAccount = (kind: 'people' | 'tokens', name: string) =>
   request(accountPath(kind, name), { method: 'DELETE' });
 
-/** Makes a token of a program. It is in this answer only. */
+/** Makes a token for a program and answers it; the server does not show it again. */
 export const makeToken = async (token: AccountEntry) =>
   ((await (await request('/api/tokens', json('POST', token))).json()) as MadeToken).token;
 
@@ -144,6 +144,6 @@ export const makeToken = async (token: AccountEntry) =>
 export const getPlaylist = async () =>
   (await (await request('/api/playlist')).json()) as PlaylistState;
 
-/** Replaces switch and entries of the playlist; the playlist afterwards. */
+/** Changes the playlist; answers the playlist afterwards. */
 export const putPlaylist = async (change: PlaylistChange) =>
   (await (await request('/api/playlist', json('PUT', change))).json()) as PlaylistState;

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { readRobots } from './robots';
 
-/** As `crates/api/src/robots.rs` writes two robots; there is a test of the same bytes. */
+/** Two robots as `crates/api/src/robots.rs` writes them, which has a test of the same bytes. */
 const TWO = [
   ...[2, 0, 0, 0],
   ...[0, 0, 0, 0x3f, 0, 0, 0xc0, 0x7f],

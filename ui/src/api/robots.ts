@@ -1,6 +1,6 @@
 import { ROBOT_COLUMNS, type Robots } from './types.gen';
 
-/** Reads the binary message with the robots' poses without copying it; `null` for any other message. */
+/** Reads the binary message with a column of numbers per field of `Robots`, without copying; null: a wrong length. */
 export function readRobots(data: ArrayBuffer): Robots | null {
   if (data.byteLength < 4) return null;
   const count = new DataView(data).getUint32(0, true);

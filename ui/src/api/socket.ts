@@ -2,7 +2,7 @@ import { backoff_ms } from './backoff';
 import { readRobots } from './robots';
 import type { Answer, FromScreen, Operation, Robots, ToScreen } from './types.gen';
 
-/** What of a WebSocket is used, so that tests can stand in for it. */
+/** The part of a WebSocket that is used, so that tests can replace it. */
 export interface SocketLike {
   binaryType: string;
   send(text: string): void;
@@ -15,11 +15,11 @@ export interface SocketLike {
 export type LinkState = 'connecting' | 'open' | 'lost';
 
 export interface Link {
-  /** Asks the server; resolves with its answer, or with a refusal in words when there is no link. Never rejects. */
+  /** Asks the server; resolves with its answer, or with a refusal without a connection or an answer. Never rejects. */
   operate(operation: Operation): Promise<Answer>;
-  /** Tries again at once instead of waiting. */
+  /** Connects at once if the link waits for its next try. */
   retry(): void;
-  /** The page is seen again, and wants to know everything at once. */
+  /** The page is seen again: sends the acknowledgements that were held back, so that the server sends on. */
   wake(): void;
   close(): void;
 }
@@ -27,21 +27,21 @@ export interface Link {
 export interface LinkOptions {
   open(): SocketLike;
   onMessage(message: ToScreen): void;
-  /** Where robots are; comes before the `state` it belongs to. */
+  /** Called with each binary message: where robots are. */
   onRobots(robots: Robots): void;
   onLink(state: LinkState): void;
-  /** Whether the page cannot be seen: then it takes a few states a second, and leaves the machine to pages that are seen. */
+  /** Whether the page cannot be seen: then states are acknowledged late, so that the server sends it fewer. */
   isHidden?(): boolean;
   random?(): number;
 }
 
-/** No answer after this long counts as refused, milliseconds. */
+/** An operation without an answer after this time counts as refused, milliseconds. */
 const ANSWER_MAX_MS = 10_000;
 
-/** A hidden page acknowledges states this often, milliseconds. */
+/** Time that a hidden page holds back acknowledgements of states, milliseconds. */
 const HIDDEN_MS = 1_000;
 
-/** A WebSocket that comes back by itself. */
+/** A connection to the server that is made again by itself whenever it breaks, until `close`. */
 export function createLink(options: LinkOptions): Link {
   const random = options.random ?? Math.random;
   const waiting = new Map<number, (answer: Answer) => void>();
@@ -54,7 +54,7 @@ export function createLink(options: LinkOptions): Link {
     waiting.delete(id);
   };
 
-  /** Acknowledgements that a hidden page holds back. */
+  /** Number of acknowledgements that are held back, and the timer that sends them. */
   let [held, release]: [number, typeof timer] = [0, undefined];
   const dropHeld = () => {
     clearTimeout(release);

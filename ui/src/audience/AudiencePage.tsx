@@ -9,19 +9,19 @@ import { createLiveLights } from './liveLights';
 import { useWakeLock } from './useWakeLock';
 import styles from './Audience.module.css';
 
-/** Closes a window that the live page opened; another one shows the live page. */
+/** Closes a window that another page opened; any other window goes to the live view. */
 function leave() {
   if (window.opener) window.close();
   else goTo('live');
 }
 
-/** The page of a projector: the running show as its audience sees it. */
+/** The audience view: the measured lights of the robots as an audience sees them. */
 export default function AudiencePage() {
   const { live, ask } = useSession();
   const lightsAt = useMemo(() => createLiveLights(live), [live]);
   const isLost = useStore(live.link) === 'lost';
   const isPlaying = useStore(live.playback, ({ phase }) => isRunning(phase));
-  // Whether a show plays is not known without a connection.
+  // Without a connection it is not known whether a show plays: the screen stays on.
   useWakeLock(isPlaying || isLost);
   useEscape(
     'shift+Escape',

@@ -7,7 +7,7 @@ import { turnViewpoint, viewpointStore } from './viewpoint';
 import styles from './Audience.module.css';
 
 interface Props {
-  /** `dialog`: it lies over another page, which gets no keys meanwhile. */
+  /** `dialog`: the screen lies over another page, and takes Tab and its own keys from it. */
   role: 'main' | 'dialog';
   lightsAt: LightsAt;
   onBack: () => void;
@@ -16,7 +16,7 @@ interface Props {
   children?: ReactNode;
 }
 
-/** The lights of the robots on black, in the whole window. */
+/** Lights on black in the whole window, with a line of keys while the pointer moves. */
 export function AudienceScreen({ role, lightsAt, onBack, onSpace = null, children }: Props) {
   const root = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -25,7 +25,7 @@ export function AudienceScreen({ role, lightsAt, onBack, onSpace = null, childre
   useAudienceKeys(onBack, onSpace, role === 'dialog');
   useEffect(() => (canvas.current ? drawLights(canvas.current, lightsAt) : undefined), [lightsAt]);
   useEffect(() => {
-    // Space must not press the button that opened this, which gets the focus back afterwards.
+    // Takes the focus, so that Space does not press the button that opened this, and gives it back at the end.
     const before = document.activeElement;
     root.current?.focus();
     return () => (before instanceof HTMLElement ? before.focus() : undefined);

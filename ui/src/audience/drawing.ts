@@ -9,13 +9,13 @@ export interface Lights {
   floor: FloorSize & { radius_m: number };
 }
 
-/** The lights at a moment; the same object when nothing changed, so that nothing is drawn. */
+/** The lights at a moment of the page's clock; the same object if nothing changed, so that nothing is drawn. */
 export type LightsAt = (now_ms: number) => Lights;
 
-/** Most device pixels a CSS pixel that are drawn: soft lights look the same with more. */
+/** Most device pixels per CSS pixel along an axis: soft lights look the same with more. */
 const DENSITY_MAX = 2;
 
-/** Draws lights into a canvas at the pace of the screen; returns a function that ends this. */
+/** Draws lights into a canvas at each refresh of the screen if they changed; returns a function that ends this. */
 export function drawLights(canvas: HTMLCanvasElement, lightsAt: LightsAt): () => void {
   const picture = createLightsCanvas(canvas);
   let size = { width_px: 1, height_px: 1 };

@@ -6,7 +6,10 @@ import { createEvenMotion, type EvenMotion } from './evenMotion';
 const all = () => true;
 const xAt = (motion: EvenMotion, now_ms: number) => motion.sample(now_ms, all)[0]?.x ?? NaN;
 
-/** Where a robot that reports its place at those moments is drawn, sixty times a second; it drives until the last. */
+/**
+ * Where a robot with these reports is drawn along x, metres, sixty times a second until `until_ms`. It is
+ * `driving` until its last report.
+ */
 function drawn(reports: readonly (readonly [at_ms: number, x: number])[], until_ms: number) {
   const motion = createEvenMotion();
   const left = [...reports];

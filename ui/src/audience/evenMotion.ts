@@ -4,26 +4,26 @@ import type { Dot } from '../base/geometry';
 import { JUMP_M, LEAST_MS, REPORT_MS } from '../session/track';
 
 /**
- * Measured lights, drawn so that they move evenly at any number of pictures a second. Robots report about twice a second:
- * each drives from where it is drawn to its newest report along a cubic curve without a jolt, and a little longer than
- * reports take, so that it need not wait for a late one. Nothing is guessed ahead. Colours change within one state message.
+ * Measured lights, drawn so that they move evenly. Robots report about twice a second. A robot is drawn on a cubic
+ * curve from where it is drawn to its newest place, without a jolt. The curve lasts a little longer than reports
+ * take: a late one must not stop the drawn robot. Nothing is guessed ahead. Colours fade between messages.
  */
 export interface EvenMotion {
-  /** Takes the places and colours of a state message. */
+  /** Takes the places and colours of a message that came at `now_ms`. */
   push(robots: Robots, now_ms: number): void;
-  /** The lights of robots with a known place; `isShown` leaves robots out. Overwritten by the next call. */
+  /** The lights of robots with a known place for which `isShown` is true. The next call overwrites the list. */
   sample(now_ms: number, isShown: (robot: number) => boolean): readonly Dot[];
   /** Whether nothing moves or changes its colour from this moment until the next `push`. */
   isStill(now_ms: number): boolean;
 }
 
-/** A robot on its curve: stage metres, metres a millisecond, milliseconds of the page's clock. */
+/** A robot on its curve. Places in stage metres, velocities in metres a millisecond, times of the page's clock. */
 interface Curve {
   from: State;
   to: State;
   began_ms: number;
   lasts_ms: number;
-  /** When the robot reported another place than before. */
+  /** When the robot last reported a new place. */
   reported_ms: number;
 }
 
@@ -35,12 +35,13 @@ interface State {
   vy: number;
 }
 
-/** A curve lasts this much longer than the last two reports were apart: enough for reports that jitter by a tenth. */
+/** Duration of a curve, in times between the last two new places: enough for reports that jitter by a tenth. */
 const LONGER = 1.2;
-/** A robot that begins a curve faster than this multiple of the curve's mean speed would drive past its end. */
+/** Largest speed at the begin of a curve, in mean speeds of the curve: a faster one would overshoot the end. */
 const FASTER_MAX = 3;
-/** Times within which a colour changes, milliseconds. */
+/** Least time of a change of colours, milliseconds; else it takes as long as the time between the last two messages. */
 const COLOUR_MIN_MS = 16;
+/** Longest time of a change of colours, milliseconds. */
 const COLOUR_MAX_MS = 100;
 
 export function createEvenMotion(): EvenMotion {
@@ -130,7 +131,7 @@ function hermite(
   return [place, slope / lasts_ms];
 }
 
-/** Begins a curve to a place that a robot reported. `goesOn`: it was on its way there, and not at its end. */
+/** Begins a curve to a new place that a robot reported. `goesOn`: the robot drives on after that place. */
 function advance(curve: Curve, x: number, y: number, goesOn: boolean, now_ms: number) {
   const { from, to } = curve;
   if (Object.is(x, to.x) && Object.is(y, to.y)) return;
@@ -141,7 +142,7 @@ function advance(curve: Curve, x: number, y: number, goesOn: boolean, now_ms: nu
     return;
   }
   stateOn(curve, now_ms, from);
-  // Of a robot that stood, the time since its last report says nothing.
+  // Limited, because after a stand the time since the last new place says nothing about the period of reports.
   const apart_ms = Math.max(LEAST_MS, Math.min(REPORT_MS, now_ms - curve.reported_ms));
   curve.began_ms = curve.reported_ms = now_ms;
   curve.lasts_ms = apart_ms * LONGER;

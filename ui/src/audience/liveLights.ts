@@ -3,7 +3,7 @@ import { EMPTY_STAGE } from '../model/show';
 import type { Lights, LightsAt } from './drawing';
 import { createEvenMotion } from './evenMotion';
 
-/** The measured lights of the robots; without a connection those that were measured last. */
+/** The measured lights of robots that are not gone; without a connection those that were measured last. */
 export function createLiveLights(live: Pick<Live, 'track' | 'fleet' | 'opened'>): LightsAt {
   const motion = createEvenMotion();
   let taken: ReturnType<Live['track']['latest']> = null;

@@ -9,8 +9,8 @@ export function toggleFullScreen() {
 }
 
 /**
- * The keys of the audience view, heard before any other: they would mean something else in the editor behind it. `onSpace`:
- * what Space does; null: nothing. `isOver`: it lies over another page, whose controls must not get the focus.
+ * The keys of the audience view, handled before those of a page behind it. `onSpace`: what Space does; null: it is not
+ * handled. `isOver`: the view lies over another page, and Tab must not focus that page's controls.
  */
 export function useAudienceKeys(onBack: () => void, onSpace: (() => void) | null, isOver: boolean) {
   useEffect(() => {
@@ -22,7 +22,7 @@ export function useAudienceKeys(onBack: () => void, onSpace: (() => void) | null
       ...(isOver ? { tab: () => undefined } : {}),
     };
     const receive = (event: KeyboardEvent) => {
-      // Shift and Escape stop all robots.
+      // Shift and Escape together stop all robots, which another handler does.
       if (event.ctrlKey || event.metaKey || event.altKey || event.shiftKey) return;
       const act = acts[event.key.toLowerCase()];
       if (!act) return;

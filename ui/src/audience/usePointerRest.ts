@@ -1,14 +1,14 @@
 import { useEffect, useState } from 'react';
 
-/** How the pointer was moved last: just now, a while ago, or long ago. */
+/** When the pointer was moved last: within `HIDDEN_MS`, within `AWAY_MS`, or longer ago or not yet. */
 export type PointerRest = 'moving' | 'resting' | 'away';
 
-/** A pointer that has not been moved for this long is hidden, milliseconds. */
+/** After this time without a move, milliseconds, the pointer is `resting`. */
 const HIDDEN_MS = 2_000;
-/** What is shown after a move goes away after this long, milliseconds. */
+/** After this time without a move, milliseconds, the pointer is `away`. */
 const AWAY_MS = 5_000;
 
-/** Follows the pointer in the window. */
+/** How long ago the pointer was moved or pressed in the window. */
 export function usePointerRest(): PointerRest {
   const [rest, setRest] = useState<PointerRest>('away');
   useEffect(() => {
@@ -16,7 +16,7 @@ export function usePointerRest(): PointerRest {
     let last: { x: number; y: number } | null = null;
     const clear = () => timers.forEach(clearTimeout);
     const receive = ({ clientX: x, clientY: y, type }: PointerEvent) => {
-      // Browsers report a pointer that stands when something under it changes, and where it is when a page opens.
+      // Browsers also report a pointer that stands: when something under it changes, and when a page opens.
       const isMoved = type === 'pointerdown' || (last !== null && (last.x !== x || last.y !== y));
       last = { x, y };
       if (!isMoved) return;

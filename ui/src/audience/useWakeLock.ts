@@ -1,6 +1,6 @@
 import { useEffect } from 'react';
 
-/** Keeps the screen from sleeping while it is wanted, where the browser can: on https and on the server's own computer. */
+/** Keeps the screen from sleeping while `isWanted`, if the browser can: on https or on the server's computer. */
 export function useWakeLock(isWanted: boolean) {
   useEffect(() => {
     const { wakeLock } = navigator as { wakeLock?: WakeLock };
@@ -14,10 +14,10 @@ export function useWakeLock(isWanted: boolean) {
         if (isOver) await given.release();
         else lock = given;
       } catch {
-        // Such as a battery that is nearly empty: the screen may sleep.
+        // Refused, for example because the battery is nearly empty: the screen may sleep.
       }
     };
-    // A hidden page loses its lock.
+    // A hidden page loses its lock, and asks again when it is seen.
     document.addEventListener('visibilitychange', ask);
     void ask();
     return () => {

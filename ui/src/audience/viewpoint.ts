@@ -4,7 +4,7 @@ import type { Viewpoint } from '../stage/projection';
 const isViewpoint = (text: string | null): text is Viewpoint =>
   text === 'above' || text === 'front';
 
-/** From where the audience view of this screen shows the floor. */
+/** From where the audience view of this screen shows the floor, kept in the browser. */
 export const viewpointStore = createChoice<Viewpoint>(
   'lightbots-audience-viewpoint',
   'above',

@@ -10,7 +10,7 @@ export const red = (c: Rgb) => (c >> 16) & 255;
 export const green = (c: Rgb) => (c >> 8) & 255;
 export const blue = (c: Rgb) => c & 255;
 
-/** `#rrggbb`. */
+/** The colour as `#rrggbb`. */
 export const toHex = (c: Rgb) => `#${c.toString(16).padStart(6, '0')}`;
 
 /** Reads `#rgb`, `rgb`, `#rrggbb` or `rrggbb`; `undefined` for anything else. */
@@ -20,7 +20,7 @@ export function fromHex(text: string): Rgb | undefined {
   return /^[0-9a-f]{6}$/i.test(digits) ? parseInt(digits, 16) : undefined;
 }
 
-/** Reads hex as `fromHex` does, or red, green and blue as `255, 128, 0` or `rgb(255 128 0)`. */
+/** Reads hex as `fromHex` does, or `255, 128, 0` or `rgb(255 128 0)`; undefined for all else and above 255. */
 export function fromText(text: string): Rgb | undefined {
   const parts = /^(?:rgb)?\(?\s*(\d{1,3})[\s,]+(\d{1,3})[\s,]+(\d{1,3})\s*\)?$/i.exec(text.trim());
   if (!parts) return fromHex(text);
@@ -28,7 +28,7 @@ export function fromText(text: string): Rgb | undefined {
   return Math.max(r, g, b) > 255 ? undefined : rgb(r, g, b);
 }
 
-/** Linear interpolation between two colours; `t` in 0..1. */
+/** Linear interpolation of red, green and blue; `t` from 0 (`a`) to 1 (`b`). */
 export const mix = (a: Rgb, b: Rgb, t: number): Rgb =>
   rgb(
     red(a) + (red(b) - red(a)) * t,
@@ -56,7 +56,7 @@ const NAMES: [string, Rgb][] = [
   ['pink', 0xff40a0],
 ];
 
-/** The nearest common colour name, because colour must not be the only sign. */
+/** The nearest of a few colour names, because colour must not be the only sign. */
 export function colourName(c: Rgb): string {
   let best = NAMES[0] as [string, Rgb];
   let bestDistance = Infinity;

@@ -8,7 +8,7 @@ export interface Point {
 /** A coloured disc of light on the floor, stage metres. */
 export interface Dot extends Point {
   color: Rgb;
-  /** 1: solid. A smaller value fades the dot, because it is stale or belongs to another frame. */
+  /** Opacity, 0 to 1. */
   alpha: number;
 }
 
@@ -30,7 +30,7 @@ export interface Box {
   maxY: number;
 }
 
-/** The bounding box of points; without points an empty box at the origin. */
+/** The bounding box of points; without points a box of size 0 at the origin. */
 export function boxOf(points: readonly Point[]): Box {
   if (points.length === 0) return { minX: 0, minY: 0, maxX: 0, maxY: 0 };
   const box = { minX: Infinity, minY: Infinity, maxX: -Infinity, maxY: -Infinity };
@@ -53,7 +53,7 @@ export const boxBetween = (a: Point, b: Point): Box => boxOf([a, b]);
 export const inBox = (p: Point, box: Box) =>
   p.x >= box.minX && p.x <= box.maxX && p.y >= box.minY && p.y <= box.maxY;
 
-/** Whether a point lies in a polygon, by counting crossings. */
+/** Whether a point lies in a polygon, by the even-odd rule; its last corner is joined to the first. */
 export function inPolygon(p: Point, polygon: readonly Point[]): boolean {
   let inside = false;
   for (let i = 0, j = polygon.length - 1; i < polygon.length; j = i++) {

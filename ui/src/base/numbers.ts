@@ -27,7 +27,7 @@ export function readNumber(text: string, { min, max, whole, unit = '' }: NumberR
   return { ok: true, value: value + 0 };
 }
 
-/** The number one step up or down, on a multiple of the step, within the limits. */
+/** The next multiple of the step above (`up`) or below the value, limited to `min` and `max`. */
 export function stepped(
   value: number,
   step: number,
@@ -38,6 +38,6 @@ export function stepped(
   return Math.min(max, Math.max(min, Number((steps * step).toFixed(6))));
 }
 
-/** `1 frame`, `2 frames`. */
+/** A count with its noun: `1 frame`, `2 frames`. */
 export const countText = (count: number, noun: string) =>
   `${count} ${noun}${count === 1 ? '' : 's'}`;

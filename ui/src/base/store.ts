@@ -1,6 +1,6 @@
 import { useEffect, useState, useSyncExternalStore } from 'react';
 
-/** A value that only its owner changes. */
+/** A value that can be read and followed, but not changed, through this interface. */
 export interface Readable<T> {
   get(): T;
   /** Calls the listener after every change; returns a function that ends this. */
@@ -42,7 +42,7 @@ export function useStore<T, S = T>(
   return useSyncExternalStore(store.subscribe, look, look);
 }
 
-/** The value, read at most once per `every_ms`: for values that change a thousand times at once. */
+/** The value, up to `every_ms` milliseconds late: for values that change a thousand times at once. */
 export function useStorePaced<T>(store: Readable<T>, every_ms: number): T {
   const [value, setValue] = useState(store.get);
   useEffect(() => {

@@ -5,7 +5,7 @@ interface UnitWords {
   /** For labels. */
   name: string;
   metres: number;
-  /** Decimals that show a tenth of a millimetre, or nearly. */
+  /** Decimals of a number in a field: its last digit is about a tenth of a millimetre. */
   digits: number;
   /** Step of a field's arrows, in the unit. */
   step: number;
@@ -27,7 +27,7 @@ export const inUnit = (metres: number, unit: Unit): number =>
 
 export const fromUnit = (value: number, unit: Unit): number => value * UNITS[unit].metres;
 
-/** `1.25 m`, `125 cm`: with decimals down to a millimetre. */
+/** A length with a fixed number of decimals, down to about a millimetre: `1.250 m`, `125.0 cm`. */
 export const lengthText = (metres: number, unit: Unit): string =>
   `${(metres / UNITS[unit].metres).toFixed(Math.max(0, UNITS[unit].digits - 1))} ${unit}`;
 

@@ -1,6 +1,6 @@
 import type { WorkerLike } from './worker';
 
-/** A worker on this thread: a function answers each message, a little later. */
+/** A worker on this thread: `answer` answers each message, after the present code has run. */
 export function answering<Ask, Reply>(answer: (ask: Ask) => Reply): WorkerLike<Ask, Reply> {
   const worker: WorkerLike<Ask, Reply> = {
     onmessage: null,

@@ -7,8 +7,8 @@ export interface WorkerLike<Ask, Reply> {
 }
 
 /**
- * Listens to a worker that has just started, while it is the `current` one: a worker that was ended may have a message
- * under way, which answers nothing any more.
+ * Passes a worker's messages to `take`, and `broken` for an error. Ignores both once the worker is not the `current`
+ * one: a message may still be under way when it is ended.
  */
 export function listenTo<Ask, Reply>(
   worker: WorkerLike<Ask, Reply>,

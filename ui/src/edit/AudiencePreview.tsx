@@ -10,13 +10,13 @@ import { useEditing } from './context';
 import type { Editing } from './editing';
 import { rememberScene } from './rememberScene';
 
-/** Shows the preview as the audience will see the show, in the whole window; one that does not run begins. */
+/** Shows the preview as the audience sees the show, in the whole window, and lets it run. */
 export function showAudience({ audience, preview }: Editing) {
   if (!preview.running.get()) preview.toggle();
   audience.set(true);
 }
 
-/** The audience view over the editor. */
+/** The audience view over the editor, if it is open, and the key that opens it. */
 export function AudiencePreview() {
   const editing = useEditing();
   const isShown = useStore(editing.audience);
@@ -36,7 +36,7 @@ function Covering({ editing }: { editing: Editing }) {
   );
 }
 
-/** The lights that the stage shows, planned or drawn: no robot is needed for them. */
+/** The filled lights of the editor's stage. */
 function lightsOf(editing: Editing): LightsAt {
   const sceneAt = rememberScene(editing);
   let last: (Lights & { scene: Scene }) | null = null;

@@ -9,7 +9,7 @@ const SWATCHES: Rgb[] = [
   0xffe000,
 ];
 
-/** The colour of all lights that are made. */
+/** Chooses the one colour of the pixels that the Make panel makes. */
 export function ColourField({ making }: { making: Making }) {
   const color = useStore(making.draft, (draft) => draft.color);
   return (

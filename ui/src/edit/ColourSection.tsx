@@ -5,13 +5,13 @@ import { useStore } from '../base/store';
 import * as acts from './acts';
 import { useEditing } from './context';
 
-/** Colours that look good as light, off among them. */
+/** Colours to choose from, black among them: the light is off. */
 const PALETTE: Rgb[] = [
   0xffffff, 0xffc878, 0xff8c00, 0xff3b1f, 0xff2f92, 0xb14cff, 0x4060ff, 0x18a0ff, 0x00e0c8,
   0x2ee55c, 0xd8f000, 0xffe000, 0x804000, 0x303030, 0x000000,
 ];
 
-/** Sets the colour of the chosen pixels, or of all when none is chosen; or the colour of the fill tool. */
+/** Sets the colour of the chosen pixels, or of all when none is chosen; with the fill tool, the fill colour. */
 export function ColourSection() {
   const editing = useEditing();
   const color = useStore(editing.color);

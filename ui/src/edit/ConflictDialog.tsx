@@ -7,7 +7,7 @@ import { attempt } from '../session/notices';
 import { freeName } from '../session/upload';
 import { useEditing } from './context';
 
-/** Another screen saved this show after this screen read it: the user chooses which one to keep. */
+/** Shown when another screen saved this show since this screen read it: the user chooses which one to keep, or both. */
 export function ConflictDialog() {
   const editing = useEditing();
   const { editor, saver } = editing;

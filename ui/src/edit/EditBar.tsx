@@ -24,7 +24,7 @@ import { StatesButton } from './StatesButton';
 import { framesView, toggleFramesView } from './timeline/framesView';
 import page from '../parts/page.module.css';
 
-/** Undo, preview, scrubbing, and the state of saving. */
+/** The editor's bar: history, preview, scrubbing, timeline, saving, export, and Run on robots. */
 export function EditBar() {
   const session = useSession();
   const editing = useEditing();
@@ -35,7 +35,7 @@ export function EditBar() {
   const running = useStore(preview.running);
   const isTimeline = useStore(framesView, (view) => view === 'timeline');
   const isMaking = useStore(editing.making, (making) => making !== null);
-  /** Runs the whole show from its first frame; the live view shows what is missing. */
+  /** Saves, opens the show and goes to the live view. If the playback is ready, it starts from the first frame. */
   const playWithRobots = async () => {
     editing.saver.flush();
     const isOpen = session.live.opened.get().name === editing.name;

@@ -11,7 +11,7 @@ import { chooseNextPoint, penLine, stopAdding } from '../make/pen';
 import { openMenuByKey } from './menuEntries';
 import { toggleFramesView } from './timeline/framesView';
 
-/** Metres an arrow key moves: alone, with Shift, with Alt. */
+/** Metres by which an arrow key moves pixels: alone, with Shift, with Alt. */
 const STEPS = [
   ['', 0.01],
   ['shift+', 0.1],
@@ -24,7 +24,7 @@ const ARROWS = [
   ['ArrowDown', 0, -1],
 ] as const;
 
-/** The editor's keys. */
+/** Most of the editor's keys; draws nothing. */
 export function EditKeys() {
   const editing = useEditing();
   const { editor } = editing;

@@ -23,10 +23,10 @@ import styles from '../parts/page.module.css';
 /** Loaded when it is first shown. */
 const TimelinePanel = lazy(() => import('./timeline/TimelinePanel'));
 
-/** The editing of this page; kept while the page is open, so that undo survives a visit to the live view. */
+/** What this page edits; kept when the view changes, so that undo survives a visit to the live view. */
 let kept: Editing | null = null;
 
-/** The page of the editor. */
+/** The page of the editor, or what stands in its place. */
 export function EditPage() {
   const session = useSession();
   const shown = useStore(session.shown);
@@ -105,7 +105,7 @@ const NotShown = ({ failure }: { failure: string }) => (
   </main>
 );
 
-/** The frames under the floor: as pictures, or on the timeline. */
+/** The frames below the stage: as pictures, or on the timeline. */
 function Frames() {
   const view = useStore(framesView);
   if (view === 'pictures') return <EditStrip />;

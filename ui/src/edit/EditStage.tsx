@@ -32,7 +32,7 @@ export function EditStage() {
     [
       'Escape',
       (event) => {
-        // A drag of the picture that is made was meant, not the Make panel.
+        // A drag was given up: the key must not also close the Make panel.
         if (giveUp()) {
           event.stopImmediatePropagation();
           return;

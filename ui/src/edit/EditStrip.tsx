@@ -10,13 +10,13 @@ import { useReorder } from './useReorder';
 import strip from '../parts/strip.module.css';
 import styles from './EditStrip.module.css';
 
-/** Travel time to a frame, seconds, as text. */
+/** Planned travel time to a frame, seconds, as text; empty while it is not planned. */
 function driveOf(plan: Plan | null, index: number): string {
   const drive_s = plan?.transitions[index]?.duration_s;
   return drive_s === undefined ? '' : drive_s.toFixed(1);
 }
 
-/** The frames: choose, add, copy, delete, drag to another place. */
+/** The frames as pictures in a row: choose, rename, add, copy, delete, drag to another place. */
 export function EditStrip() {
   const editing = useEditing();
   const show = useEditor((s) => s.show);

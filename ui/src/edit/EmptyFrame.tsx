@@ -4,7 +4,7 @@ import { useEditing, useEditor } from './context';
 import { openMaking } from './makes';
 import styles from '../stage/stage.module.css';
 
-/** What to do with a frame without pixels. */
+/** A hint over a frame without pixels, unless the Make panel is open. */
 export function EmptyFrame() {
   const editing = useEditing();
   const isEmpty = useEditor((s) => s.show.frames[s.frame]?.pixels.length === 0);

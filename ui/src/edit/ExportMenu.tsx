@@ -16,7 +16,7 @@ import { LinkDialog } from './LinkDialog';
 
 const FilmDialog = lazy(() => import('./film/FilmDialog'));
 
-/** Saves the show as a file, as a film, as a link, or as a copy in the library. */
+/** A menu that saves the show as a file, a film, a link, or a copy in the library. */
 export function ExportMenu() {
   const session = useSession();
   const editing = useEditing();

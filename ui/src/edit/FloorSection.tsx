@@ -7,10 +7,10 @@ import { LengthInput } from '../parts/LengthInput';
 import { useEditing, useEditor } from './context';
 import styles from './FloorSection.module.css';
 
-/** Most areas in the list; the floor shows the rest. */
+/** Most no-go areas in the list; the floor shows all. */
 const LISTED_MAX = 20;
 
-/** The smallest round area, metres. */
+/** Least radius of a round area, metres. */
 const RADIUS_MIN_M = 0.001;
 
 /** Size of the floor, and its no-go areas. */

@@ -4,7 +4,7 @@ import { IconButton } from '../parts/IconButton';
 import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 
-/** Adds, copies and deletes frames; `position`: where the tips are. */
+/** Buttons that add, copy and delete frames; `position`: the side on which their tooltips appear. */
 export function FrameButtons({ position }: { position: 'right' | 'top' }) {
   const editing = useEditing();
   const isAll = useEditor((s) => s.show.frames.length <= s.frames.size);

@@ -8,7 +8,7 @@ import { useEditing, useEditor } from './context';
 import { CueField } from './CueField';
 import { NailField } from './NailField';
 
-/** Said under a field whose value is not the same in all chosen frames. */
+/** Text under a field with values that differ between the chosen frames. */
 const DIFFERENT = 'different in these frames';
 
 /** The chosen frames in playing order. */
@@ -18,13 +18,13 @@ function useChosenFrames(): readonly Frame[] {
   return frames.filter((_, i) => chosen.has(i));
 }
 
-/** The value that all frames share; undefined: they have different ones. */
+/** The value of `of` that all frames share; undefined: they have different ones, or there are no frames. */
 function shared<T>(frames: readonly Frame[], of: (frame: Frame) => T): T | undefined {
   const [first, ...others] = frames.map(of);
   return others.every((value) => value === first) ? first : undefined;
 }
 
-/** Name, air time and drive of the chosen frames. */
+/** Settings of the chosen frames: order, air time, cue, travel time, motion and assignment; of one also its name. */
 export function FrameSection() {
   const editing = useEditing();
   const index = useEditor((s) => s.frame);

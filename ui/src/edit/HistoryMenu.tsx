@@ -4,7 +4,7 @@ import { useEffect, useRef } from 'react';
 import { useEditing, useEditor } from './context';
 import styles from './HistoryMenu.module.css';
 
-/** All changes of the show since it was opened, newest first; a click goes to the state after that change. */
+/** The changes that the history keeps, newest first, undone ones too; a click goes to the state after that change. */
 export function HistoryMenu() {
   const isEmpty = useEditor((s) => s.history.past.length + s.history.future.length === 0);
   return (

@@ -18,7 +18,7 @@ import styles from '../parts/page.module.css';
 /** Loaded when it is first shown. */
 const LightPanel = lazy(() => import('./light/LightPanel'));
 
-/** Properties of the chosen pixels, the frame, the light and the show. */
+/** Tabs with the properties of the chosen pixels, the frames, the light and the show. */
 export function Inspector() {
   const { editor, plan } = useEditing();
   const issues = useStore(plan, (plan) => plan?.issues) ?? [];

@@ -10,7 +10,7 @@ import { sharedAddress } from '../session/address';
 import { notify } from '../session/notices';
 import { useEditing } from './context';
 
-/** Shows of an empty title carry the name of the library. */
+/** The show as a document; without a title it gets its name in the library as title. */
 const documentOf = (show: Show, name: string) =>
   writeShow(show.name.trim() === '' ? { ...show, name } : show);
 

@@ -5,7 +5,7 @@ import { useEditing, useEditor } from './context';
 import { fileName, openMaking, sourceToChange } from './makes';
 import styles from './Make.module.css';
 
-/** What the frame is made from, and the way into the Make panel. */
+/** What the frame on the stage is made from, and the button that opens the Make panel. */
 export function MadeFrom() {
   const editing = useEditing();
   const sources = useEditor((s) => s.show.frames[s.frame]?.sources);

@@ -22,7 +22,7 @@ const TABS: { value: Tab; label: string }[] = [
   { value: 'file', label: 'Files' },
 ];
 
-/** Makes the frame on the stage from words, a shape or a file. The stage shows what the settings give. */
+/** Makes the frame on the stage, and frames after it, from words, a shape or files. The stage shows the result. */
 export function MakePanel({ making }: { making: Making }) {
   const editing = useEditing();
   const { editor } = editing;
@@ -36,12 +36,12 @@ export function MakePanel({ making }: { making: Making }) {
     [
       'Escape',
       () => {
-        // During a drag on the stage the key ends the drag alone, and of a line first the adding of points.
+        // During a drag on the stage the key ends only the drag, and while points are added only the adding.
         if (!editor.isGesturing() && !making.pen.get().isAdding) close();
       },
     ],
   ]);
-  // Another frame on the stage, or another state of this one, is what the user wants to see now.
+  // The panel closes when another frame comes on the stage.
   useEffect(
     () =>
       editor.state.subscribe(() => {
@@ -59,7 +59,7 @@ export function MakePanel({ making }: { making: Making }) {
           void takeMade(editing, making);
         }}
         onKeyDown={(event) => {
-          // An open list takes the key for itself.
+          // An open list of choices uses the key to close itself.
           const isList = (event.target as HTMLElement).ariaExpanded === 'true';
           if (event.key === 'Escape' && !isList) close();
         }}
@@ -100,7 +100,7 @@ export function MakePanel({ making }: { making: Making }) {
   );
 }
 
-/** What settings may name; null until the module is there. */
+/** Fonts and shapes that settings may name; null until the module is loaded, and if it cannot be. */
 function useChoices(): MakeChoices | null {
   const { maker, choices } = useEditing();
   useEffect(() => {
@@ -110,7 +110,7 @@ function useChoices(): MakeChoices | null {
   return useStore(choices);
 }
 
-/** Gives the first field the focus when the panel opens, and the button that opens it when it closes. */
+/** Focuses the first field when the panel opens; when it closes, the button that opens it, if nothing has focus. */
 function useFocus() {
   const form = useRef<HTMLFormElement>(null);
   useEffect(() => {

@@ -9,7 +9,7 @@ import { VerdictIcon } from '../parts/VerdictIcon';
 import { useUnit } from '../session/preferences';
 import styles from './Make.module.css';
 
-/** How well the robots show what is made, or why they do not. */
+/** How well the robots show what is made, or why they do not; before that, what to do first. */
 export function MakeVerdict({ making }: { making: Making }) {
   const { answer, shown, drives } = useStore(making.made);
   const unit = useUnit();
@@ -37,16 +37,17 @@ export function MakeVerdict({ making }: { making: Making }) {
   );
 }
 
-/** What to do first. */
+/** What to do first, by tab. */
 const START = {
   text: { tone: 'none', text: 'Type words, and the robots show them.' },
   shape: { tone: 'none', text: 'The robots show the shape in a moment.' },
   file: { tone: 'none', text: 'Choose a file, and the robots show it.' },
 } as const;
 
+/** What to do first for a shape that is drawn on the floor. */
 const DRAW = { tone: 'none', text: 'Draw on the floor, and the robots show the line.' } as const;
 
-/** Notes about the whole, and those of the pictures without repetition; a few, because a long animation may have dozens. */
+/** Up to four different notes, those about the whole first, then those of the pictures, which may be dozens. */
 const notesOf = ({ notes, pictures }: Pictures): string[] =>
   [
     ...new Set([...notes, ...pictures.flatMap((p) => p.answer.notes)].map((note) => note.message)),

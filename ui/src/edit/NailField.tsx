@@ -6,7 +6,7 @@ import { timelineOf } from '../model/timeline';
 import { NumberField } from '../parts/NumberField';
 import { useEditing, useEditor } from './context';
 
-/** Whether the picture of the frame begins at a fixed moment of the show. */
+/** Fixes the moment of show time at which the frame's picture begins; nothing for the first frame. */
 export function NailField() {
   const editing = useEditing();
   const show = useEditor((s) => s.show);

@@ -4,13 +4,13 @@ import styles from './NameField.module.css';
 interface Props {
   label: string;
   name: string;
-  /** The typed name; `null`: cancelled. `isByKey`: a key ended it, so that no other element has the focus. */
+  /** The typed name; null: cancelled. `isByKey`: Enter or Escape ended it, so that no other element has the focus. */
   onName: (name: string | null, isByKey: boolean) => void;
 }
 
-/** A name that is typed where it is shown: Enter and leaving take it, Escape does not. */
+/** A name that is typed where it is shown. Enter and leaving the field take it, Escape cancels. */
 export function NameField({ label, name, onName }: Props) {
-  // Escape also removes the focus, and must not save the cancelled name.
+  // Whether the name was taken or cancelled: the field loses the focus afterwards, which must not take it again.
   const left = useRef(false);
   const leave = (typed: string | null, isByKey: boolean) => {
     if (left.current) return;

@@ -15,13 +15,13 @@ function storage(): Storage | null {
   }
 }
 
-/** The own shapes of this page, in every show. */
+/** The own shapes of this browser, for every show. */
 const shapes = createOwnShapes(storage());
 
 /** Longest name of an own shape, characters. */
 const NAME_MAX = 60;
 
-/** Own shapes: a click makes the frame from one, a name keeps what is made now. */
+/** Own shapes: a click loads one into the Make panel, Save keeps under a name what the panel makes now. */
 export function OwnShapesField({ making }: { making: Making }) {
   const list = useStore(shapes.list);
   const source = sourcesOf(useStore(making.draft))[0] ?? null;
@@ -80,7 +80,7 @@ export function OwnShapesField({ making }: { making: Making }) {
           }}
           onKeyDown={(event) => {
             if (event.key !== 'Enter') return;
-            // The form's own button uses the frame.
+            // Enter would submit the form of the Make panel, which uses the frame.
             event.preventDefault();
             save();
           }}

@@ -7,10 +7,10 @@ import { IconButton } from '../parts/IconButton';
 import { SliderField } from './SliderField';
 import styles from './Make.module.css';
 
-/** How long each picture is shown while they run, milliseconds: long enough to see it, and less than robots need. */
+/** How long each picture is shown while the pictures run, milliseconds: long enough to see it. */
 const STEP_MS = 500;
 
-/** Which of several pictures the stage shows, and how they go together. */
+/** Chooses which of several made pictures the stage shows, or runs through them; nothing for one picture. */
 export function PictureField({ making }: { making: Making }) {
   const shown = useStore(making.made, (made) => made.shown);
   const at = useStore(making.at);

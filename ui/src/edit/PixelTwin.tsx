@@ -1,10 +1,10 @@
 import { colourName } from '../base/colour';
 import { useEditing, useEditor } from './context';
 
-/** Most pixels in the list, because ten thousand do not help a screen reader. */
+/** Most pixels in the list, because thousands do not help a screen reader. */
 const LISTED_MAX = 200;
 
-/** The pixels of the frame as a list, for screen readers and tests; a click chooses a pixel. */
+/** The first pixels of the frame as a hidden list, for screen readers and tests; a click chooses a pixel. */
 export function PixelTwin() {
   const { editor } = useEditing();
   const pixels = useEditor((s) => s.show.frames[s.frame]?.pixels);

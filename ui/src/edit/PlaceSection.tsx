@@ -8,7 +8,7 @@ import * as acts from './acts';
 import { useEditing, useEditor } from './context';
 import { PinField } from './PinField';
 
-/** Number and exact position of the chosen pixels. */
+/** Number of the chosen pixels, acts that choose and group, and the centre of their bounding box. */
 export function PlaceSection() {
   const editing = useEditing();
   const state = useEditor((s) => s);

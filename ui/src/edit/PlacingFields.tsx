@@ -18,7 +18,7 @@ const LABELS: Record<Style, string> = {
   lines: 'Lines',
 };
 
-/** Shapes that are lines or dots, which have no inside. */
+/** Shapes without an inside: lines and dots. */
 const WITHOUT_INSIDE = [...DRAWN, 'rings', 'spiral', 'arc', 'wave', 'grid', 'hexagons', 'random'];
 
 const hasInside = ({ tab, shape, files }: Draft) =>
@@ -26,7 +26,7 @@ const hasInside = ({ tab, shape, files }: Draft) =>
   (tab === 'shape' && !WITHOUT_INSIDE.some((known) => known === shape)) ||
   (tab === 'file' && files.some(({ kind }) => kind === 'svg'));
 
-/** Style, size and turn of what is made. */
+/** Style, size, turn and middle of what is made. */
 export function PlacingFields({ making }: { making: Making }) {
   const draft = useStore(making.draft);
   const made_m = useStore(making.made, (made) => made.shown?.pictures[0]?.answer.size_m ?? null);

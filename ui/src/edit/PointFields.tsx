@@ -8,7 +8,7 @@ import { LengthInput } from '../parts/LengthInput';
 import { useEditing } from './context';
 import { addPoint, penFloor } from './penActs';
 
-/** What to do on the floor. */
+/** What to do on the floor while a line is drawn, by its kind. */
 const HOW: Record<DrawnKind, string> = {
   line: 'Drag on the floor from one end to the other.',
   polyline:
@@ -21,7 +21,7 @@ const HOW: Record<DrawnKind, string> = {
 const CHANGE =
   'Drag a point to move it, a small dot to add one. A double click on a point removes it.';
 
-/** The points of a line that is drawn on the floor, one of them with its place. */
+/** Fields for the points of a drawn line, and the place of the chosen point; nothing for other shapes. */
 export function PointFields({ making }: { making: Making }) {
   const editing = useEditing();
   useStore(making.draft);

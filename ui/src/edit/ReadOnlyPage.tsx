@@ -10,7 +10,7 @@ interface Props {
   reason: string;
 }
 
-/** In place of the editor: the show holds more than this version knows, so that saving it would lose that. */
+/** In place of the editor: the show's file holds more than this version knows, and saving would lose it. */
 export function ReadOnlyPage({ name, reason }: Props) {
   const session = useSession();
   const saveCopy = async () => {

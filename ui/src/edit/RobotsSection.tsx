@@ -8,7 +8,7 @@ import { robotsToFit } from '../session/fitness';
 import { useSession } from '../session/session';
 import { useEditing, useEditor } from './context';
 
-/** Most pixels per frame in the editor; larger shows come from files. */
+/** Most pixels per frame, and most spare robots, that can be typed here; larger shows come from files. */
 const FLEET_MAX = 2000;
 
 const NUMBERS: [LimitName, string, number, number, number][] = [

@@ -11,7 +11,7 @@ const WORDS = {
   failed: 'Not saved yet',
 } as const;
 
-/** Whether the library has the changes of this screen. */
+/** Says whether the library has the changes of this screen. */
 export function SaveMark() {
   const { saver, keeper } = useEditing();
   const state = useStore(saver.state);

@@ -7,7 +7,7 @@ import page from '../parts/page.module.css';
 import { useEditing, useEditor } from './context';
 import styles from './EditBar.module.css';
 
-/** The moment of the show that the floor shows. It stands alone, because each picture of a preview draws it anew. */
+/** A slider for the moment that the stage shows. A component of its own, because it is drawn anew during a preview. */
 export function Scrubber() {
   const { preview, settled } = useEditing();
   const show = useEditor((s) => s.show);

@@ -30,7 +30,7 @@ import { PointFields } from './PointFields';
 import { SliderField } from './SliderField';
 import styles from './Make.module.css';
 
-/** Name, label and icon. */
+/** Name, label and icon of each shape. */
 const SHAPES: [string, string, Icon][] = [
   ['heart', 'Heart', IconHeart],
   ['star', 'Star', IconStar],
@@ -51,7 +51,7 @@ const SHAPES: [string, string, Icon][] = [
   ['random', 'By chance', IconGrain],
 ];
 
-/** Label, range and step; angles in degrees. */
+/** Label, least value, greatest value and step of each slider; angles in degrees. */
 const NUMBERS: Record<ShapeNumber, [string, number, number, number]> = {
   aspect: ['Width to height', ASPECT.min, ASPECT.max, 0.1],
   count: ['Corners, tips or circles', 2, 12, 1],

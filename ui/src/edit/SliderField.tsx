@@ -9,7 +9,7 @@ interface Props {
   min: number;
   max: number;
   step: number;
-  /** Goes back to a value that is chosen by itself; absent: it is, or there is none. */
+  /** Goes back to the automatic value; absent: the value is automatic already, or there is no automatic one. */
   onAuto?: () => void;
   onChange: (value: number) => void;
   /** The thumb was let go. */

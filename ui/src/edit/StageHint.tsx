@@ -5,7 +5,7 @@ import { useEditing, useEditorNow } from './context';
 import { marksNow } from './overlay';
 import styles from '../stage/stage.module.css';
 
-/** One line at the floor's edge: the distance of a drag, or the pixels that are wrong and how to fix them. */
+/** One line at the lower edge of the stage: the hint of a gesture, else which pixels are wrong and how to fix them. */
 export function StageHint() {
   const state = useEditorNow((s) => s);
   const editing = useEditing();

@@ -33,7 +33,7 @@ export function StageMenu() {
       <Menu.Dropdown
         aria-label={open.about === 'pixels' ? 'Selected pixels' : 'The floor'}
         className={styles.list}
-        // The key that opened the menu also asks for the browser's.
+        // The key that opened this menu would also open the browser's.
         onContextMenu={(event) => event.preventDefault()}
       >
         {entriesOf(editing, open.about).map((entry, i) => (

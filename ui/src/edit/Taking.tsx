@@ -4,7 +4,7 @@ import { useSession } from '../session/session';
 import { useEditing } from './context';
 import { takeAnything } from './taking';
 
-/** The kind under which the clipboard says that pixels were copied here. */
+/** Media type that marks a copy of pixels in the clipboard. */
 const PIXELS = 'application/x-lightbots-pixels';
 
 /** Takes what is dropped on the page or pasted, and copies and pastes pixels. */
@@ -13,7 +13,7 @@ export function Taking() {
   const editing = useEditing();
   const dropped = useStore(session.dropped);
   useEffect(() => {
-    // The editor of the show before may still be here when the new show is not.
+    // The editor may still have another show than the one for which this was dropped.
     if (!dropped || (dropped.into !== null && dropped.into !== editing.name)) return;
     session.dropped.set(null);
     void takeAnything(session, editing, dropped.files, dropped.text);

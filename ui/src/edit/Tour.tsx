@@ -30,7 +30,7 @@ const seen = () => {
   }
 };
 
-/** The first steps, shown once per browser. */
+/** The first steps, shown until they are ended once in this browser; never without storage. */
 export function Tour() {
   const [step, setStep] = useState(() => (seen() ? STEPS.length : 0));
   const now = STEPS[step];
@@ -39,7 +39,7 @@ export function Tour() {
     try {
       localStorage.setItem(KEY, 'done');
     } catch {
-      // Without storage the tour is shown again.
+      // It could not be noted: the tour may be shown again.
     }
     setStep(STEPS.length);
   };

@@ -11,7 +11,7 @@ const LABELS: Record<PictureWay, string> = {
   tones: 'Tones',
 };
 
-/** What the checkbox does, which depends on what is shown. */
+/** Label of the checkbox, by what the robots show. */
 const inversion = (way: PictureWay) =>
   way === 'tones' ? 'Robots where it is dark' : 'The background instead';
 

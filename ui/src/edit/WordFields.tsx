@@ -7,7 +7,7 @@ import { useEditing } from './context';
 import { takeFont, TEXT_MAX } from './taking';
 import styles from './Make.module.css';
 
-/** The choice of a font of one's own in the list of fonts. */
+/** Value of the user's own font file in the list of fonts. */
 const OWN = 'own file';
 
 /** Words, their font and colour. */

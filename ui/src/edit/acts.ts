@@ -7,10 +7,10 @@ import * as groups from '../model/groups';
 import { tooClose_m, type Pixel, type Show, type Stage } from '../model/show';
 import { keepColour, type Editing } from './editing';
 
-/** Distance of pixels that makes planning easy; arrangements keep it where there is room, metres. */
+/** Distance of pixels, centre to centre, that makes planning easy, metres; `spread` aims at it. */
 const easyGap_m = (stage: Stage) => Math.max(0.08, tooClose_m(stage) + 0.016);
 
-/** Room between a robot's rim and the edge of the floor where pixels are put there, metres. */
+/** Room that `keepOnFloor` leaves between a robot's rim and the edge of the floor, metres. */
 const FLOOR_EDGE_M = 0.01;
 
 /** Pixels that an action changes: the selection, or all pixels when nothing is selected. */
@@ -45,7 +45,7 @@ export const spread = (e: Editing) =>
     keepOnFloor(arrange.spread(p, easyGap_m(show.stage)), show.stage),
   );
 
-/** Shifts positions onto the floor as a whole, without scaling. */
+/** Shifts all positions alike so that they lie on the floor. Along an axis where they do not fit, centres them. */
 function keepOnFloor(places: Point[], stage: Stage): Point[] {
   const margin = stage.radius_m + FLOOR_EDGE_M;
   const floor = {
@@ -65,7 +65,7 @@ function keepOnFloor(places: Point[], stage: Stage): Point[] {
   return places.map((p) => ({ x: p.x + dx, y: p.y + dy }));
 }
 
-/** Makes the frame small enough for the floor, and shifts it there. */
+/** Scales the pixels of the frame down, if they need it, and shifts them onto the floor. */
 export function fitToFloor(e: Editing) {
   e.editor.change('Fit to floor', (show, s) => {
     const pixels = show.frames[s.frame]?.pixels ?? [];
@@ -75,7 +75,7 @@ export function fitToFloor(e: Editing) {
   });
 }
 
-/** The places scaled about their middle until they are no wider and deeper than the floor. */
+/** The places scaled down about their middle, if needed, so that their robots fit on the floor. */
 function withinFloor(places: readonly Point[], stage: Stage): Point[] {
   const box = boxOf(places);
   const room = (side_m: number) => Math.max(0, side_m - 2 * (stage.radius_m + FLOOR_EDGE_M));
@@ -93,20 +93,20 @@ export const nudge = (e: Editing, dx: number, dy: number) => {
   place(e, 'Nudge', (places) => places.map((p) => ({ x: p.x + dx, y: p.y + dy })));
 };
 
-/** Moves the centre of the selection to an exact coordinate, metres. */
+/** Moves the centre of the selection, or of all pixels if nothing is selected, to a coordinate, metres. */
 export const moveTo = (e: Editing, axis: 'x' | 'y', value: number) =>
   place(e, 'Place', (places) => {
     const by = value - centreOf(boxOf(places))[axis];
     return places.map((p) => ({ ...p, [axis]: p[axis] + by }));
   });
 
-/** Colours the selection, or all pixels; the colour becomes the current one. */
+/** Colours the selection, or all pixels, in the chosen frames; the colour becomes the current one. */
 export function paint(e: Editing, color: Rgb) {
   keepColour(e, color);
   recolour(e, 'Colour', (pixels) => new Map(pixels.map((p) => [p.id, color])));
 }
 
-/** Makes a colour the current one: of the fill tool while that is chosen, else also of the selection. */
+/** Makes a colour the current one, and unless the fill tool is chosen also paints with it. */
 export const chooseColour = (e: Editing, color: Rgb) =>
   e.tool.get() === 'fill' ? keepColour(e, color) : paint(e, color);
 
@@ -114,7 +114,7 @@ export function paintGradient(e: Editing, from: Rgb, to: Rgb) {
   recolour(e, 'Gradient', (pixels) => commands.gradient(pixels, from, to));
 }
 
-/** Colours the selection, or all pixels when nothing is selected, in every chosen frame. */
+/** Colours the selection in every chosen frame, or all their pixels if the frame on the stage has no selected one. */
 function recolour(
   e: Editing,
   label: string,
@@ -130,11 +130,11 @@ function recolour(
   e.editor.change(label, (show) => chosenFrames(e).reduce(change, show));
 }
 
-/** Lets the chosen frames wait for GO at a cue of that name; null: they go on by themselves. */
+/** Lets the show wait for GO after each chosen frame, at a cue of that name; null: it goes on by itself. */
 export const setCue = (e: Editing, name: string | null) =>
   e.editor.change('Cue', (show) => cues.setCue(show, chosenFrames(e), name));
 
-/** Lets the show repeat from the frame at `from` to the chosen one until GO; null: it waits there. */
+/** Lets the cue of the frame at `index` repeat from frame `from` until GO; null: it only waits. */
 export const setLoop = (e: Editing, index: number, from: number | null) =>
   e.editor.change('Cue', (show) => cues.setLoop(show, index, from));
 
@@ -166,7 +166,7 @@ export function deleteFrames(e: Editing) {
   e.editor.goToFrame(Math.min(frames[0] ?? 0, e.editor.state.get().show.frames.length - 1));
 }
 
-/** Moves frames together before the frame at `before`; they stay chosen. */
+/** Moves frames together, to just before the frame that is at `before` now, or to the end, and chooses them. */
 export function moveFrames(e: Editing, indices: readonly number[], before: number) {
   const keys = indices.map((i) => e.editor.state.get().show.frames[i]?.key);
   e.editor.change('Move frame', (show) => commands.moveFrames(show, indices, before));
@@ -174,14 +174,17 @@ export function moveFrames(e: Editing, indices: readonly number[], before: numbe
   e.editor.chooseFrames(frames.flatMap((frame, i) => (keys.includes(frame.key) ? [i] : [])));
 }
 
-/** Moves the chosen frames one place, towards the beginning or the end. */
+/** Moves the chosen frames together, one place before the first of them or behind the last of them. */
 export function shiftFrames(e: Editing, by: -1 | 1) {
   const frames = chosenFrames(e);
   const [first, last] = [frames[0] ?? 0, frames[frames.length - 1] ?? 0];
   moveFrames(e, frames, by < 0 ? first - 1 : last + 2);
 }
 
-/** Moves the dragged frame, or all chosen frames if it is one of them, to the place of the frame at `to`. */
+/**
+ * Moves the dragged frame, or all chosen frames if it is one of them, next to the frame at `to`. They go behind it if
+ * it is later than the dragged frame, else before it. If it is one of the moved frames, nothing moves.
+ */
 export function dropFrames(e: Editing, dragged: number, to: number) {
   const { frames } = e.editor.state.get();
   const moved = frames.has(dragged) ? chosenFrames(e) : [dragged];
@@ -194,7 +197,7 @@ export const renameFrame = (e: Editing, index: number, name: string) =>
 export const setFrames = (e: Editing, fields: commands.FrameFields) =>
   e.editor.change('Frame', (show) => commands.setFrames(show, chosenFrames(e), fields));
 
-/** Chooses all pixels that have the colour of a chosen pixel. */
+/** Chooses all pixels of the frame that have the colour of any chosen pixel. */
 export function selectSameColour(e: Editing) {
   const colors = new Set(e.editor.chosenPixels().map((p) => p.color));
   const pixels = e.editor.current()?.pixels ?? [];
@@ -211,7 +214,7 @@ export function invertSelection(e: Editing) {
   e.editor.select(pixels.filter((p) => !selection.has(p.id)).map((p) => p.id));
 }
 
-/** Chooses the next pixel by id, or the one before. */
+/** Chooses the pixel after (1) or before (-1) the one chosen last, by id; past the end it begins again. */
 export function selectNext(e: Editing, by: 1 | -1) {
   const ids = e.editor.current()?.pixels.map((p) => p.id) ?? [];
   const chosen = [...e.editor.state.get().selection];

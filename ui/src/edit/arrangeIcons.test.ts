@@ -3,7 +3,7 @@ import { renderToStaticMarkup } from 'react-dom/server';
 import { expect, test } from 'vitest';
 import { MOVES } from './ArrangeSection';
 
-/** The straight line of an icon: the axis that its two halves mirror each other at. */
+/** The first path of an icon of `MOVES`, as SVG: of a mirror icon the straight line between its halves. */
 const axisOf = (label: string) => {
   const Glyph = MOVES.find(([name]) => name === label)?.[1];
   if (!Glyph) throw new Error(`There is no ${label}.`);

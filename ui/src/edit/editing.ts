@@ -27,9 +27,9 @@ import { createSpaceHold, type SpaceHold } from './spaceHold';
 import type { MenuAt } from './menuAt';
 import { watchLeaving } from './watchLeaving';
 
-/** A file that this screen took to make a frame from. */
+/** A file that the user gave this screen for a show. */
 export interface TakenFile {
-  /** SHA-256, by which shows name it. */
+  /** SHA-256 of the bytes, by which shows name the file. */
   hash: string;
   name: string;
   mediaType: string;
@@ -46,7 +46,7 @@ export interface StageOptions {
   routes: boolean;
 }
 
-/** A show that this screen edits. It is kept while the page is open, so that undo survives a visit to the live view. */
+/** A show that this screen edits, and the state of its editor. */
 export interface Editing {
   /** Name in the library. Changes once, when a read-only show was saved as a copy and the copy is shown. */
   name: string;
@@ -55,18 +55,18 @@ export interface Editing {
   keeper: Keeper;
   /** The plan of this show; null: there is none yet, or another show is open. */
   plan: Readable<Plan | null>;
-  /** The last finished plan of this show; null as in `plan`. */
+  /** The last finished plan of this show; null: there is none yet, or another show is open. */
   settled: Readable<Plan | null>;
   full: FullPlan;
   view: Store<View>;
   tool: Store<ToolName>;
   options: Store<StageOptions>;
-  /** The last applied colours, newest first. */
+  /** The colours used last, newest first, each once. */
   recent: Store<readonly Rgb[]>;
   /** Colour of the picker. */
   color: Store<Rgb>;
   preview: Preview;
-  /** Makes frames from words, shapes and files; loads its module with the first of them. */
+  /** Makes frames from words, shapes and files; its worker starts with the first request. */
   maker: Maker;
   /** Colours of the layers of light. */
   lights: Lights;
@@ -83,7 +83,7 @@ export interface Editing {
   moving: Store<boolean>;
   /** The motion of the frame while a handle of it is dragged; null: none is. */
   motionDrawn: Store<Motion | null>;
-  /** What settings may name; null until the module is there. */
+  /** Fonts and shapes that settings of the Make panel may name; null until they are loaded. */
   choices: Store<MakeChoices | null>;
   /** The frame that is being made in the Make panel; null: the panel is closed. */
   making: Store<Making | null>;
@@ -97,12 +97,13 @@ export interface Editing {
   audience: Store<boolean>;
   /** The menu that is open on the stage; null: none. */
   menu: Store<MenuAt | null>;
-  /** The frame that is being renamed in the strip; null: none. */
+  /** Index of the frame that is being renamed; null: none. */
   renaming: Store<number | null>;
   /** Saves unsaved changes and stops following the server, because another show is edited from now on. */
   retire(): void;
 }
 
+/** Most colours in `recent`. */
 const RECENT_MAX = 10;
 
 /** `wantedDraft`: the draft of a closed page to restore; null: the newest, if there is one. */
@@ -195,7 +196,7 @@ export function createEditing(
   return editing;
 }
 
-/** The open show's plan while the open show has that name. */
+/** `plan` while the show open on the server has that name; else null. */
 const planOf = (
   { opened }: Session['live'],
   name: () => string,
@@ -223,7 +224,7 @@ function moveToCopy(session: Session, editing: Editing, saving: Saving): () => v
   return () => stops.forEach((stop) => stop());
 }
 
-/** Adopts versions that other screens save, unless this screen has unsaved changes: then saving finds the conflict. */
+/** Adopts versions that other screens save. Not during a gesture or with unsaved changes: saving finds the conflict. */
 function followServer(session: Session, editing: Editing): () => void {
   const { editor, saver } = editing;
   const known = new Set([saver.etag(), session.live.opened.get().etag]);

@@ -11,7 +11,7 @@ export function beginHandles(c: CanvasRenderingContext2D) {
   c.lineWidth = 1.5;
 }
 
-/** A dashed line through places on the canvas. */
+/** Draws a dashed line through places on the canvas, CSS pixels. */
 export function dashedLine(c: CanvasRenderingContext2D, places: readonly Point[]) {
   c.setLineDash([5, 4]);
   c.beginPath();
@@ -20,7 +20,7 @@ export function dashedLine(c: CanvasRenderingContext2D, places: readonly Point[]
   c.setLineDash([]);
 }
 
-/** A round handle. */
+/** Draws a round handle at a place on the canvas, CSS pixels. */
 export function roundHandle(c: CanvasRenderingContext2D, { x, y }: Point) {
   c.beginPath();
   c.arc(x, y, DOT_PX, 0, 2 * Math.PI);

@@ -4,19 +4,21 @@ import { LONG_MS, STILL_PX } from '../stage/pointer';
 export interface HoldDrag {
   begin(index: number): void;
   over(index: number): void;
-  /** The finger was lifted over this item. */
+  /** The finger was lifted over the item with this index. */
   drop(index: number): void;
   giveUp(): void;
 }
 
-/** A finger within `EDGE_PX` of an end of the list scrolls the list by `SCROLL_PX` every `SCROLL_EVERY_MS`. */
+/** A dragging finger this near to an end of the list, or beyond it, scrolls the list, CSS pixels. */
 const EDGE_PX = 48;
+/** Step by which the list scrolls, CSS pixels. */
 const SCROLL_PX = 12;
+/** Time between two such steps, milliseconds. */
 const SCROLL_EVERY_MS = 30;
 
 /**
- * A finger held still on an item of a list drags the item; a finger that moves at once scrolls the list. Returns a
- * function that ends this.
+ * Lets a finger that was held still for `LONG_MS` on an item (`li`) of a horizontal list drag the item. A finger that
+ * moves sooner scrolls the list. Returns a function that ends this.
  */
 export function listenToHold(list: HTMLElement, drag: HoldDrag): () => void {
   const stop = new AbortController();
@@ -109,7 +111,7 @@ export function listenToHold(list: HTMLElement, drag: HoldDrag): () => void {
     },
     options,
   );
-  // Held still, a finger asks for a menu, or for the browser's own dragging: neither is meant here.
+  // A finger held still makes the browser open a menu or begin its own dragging: neither is wanted.
   for (const name of ['contextmenu', 'dragstart'] as const)
     list.addEventListener(
       name,

@@ -10,7 +10,7 @@ import type { FrameSource } from '../model/sources';
 import { notify } from '../session/notices';
 import type { Editing } from './editing';
 
-/** Number of robots of a show that has no pixels yet. */
+/** Number of robots for which pixels are made in a show without pixels. */
 const ROBOTS_USUAL = 30;
 
 /** The frame's only source, which the Make panel can change; null: it has none, or several. */
@@ -20,8 +20,9 @@ export function sourceToChange(sources: readonly FrameSource[]): FrameSource | n
 }
 
 /**
- * Opens the Make panel for the frame on the stage, with its source if it has one; `tab`: from a source of this kind, which
- * begins with `fields` if the frame has none that `suits`. Answers the making that is open then; null: there is no frame.
+ * Opens the Make panel for the frame on the stage. It begins with the frame's only source if that is of tab `tab` (or
+ * `tab` is absent) and `suits`. Else it begins with a new draft with `fields`. If a panel is open already, nothing
+ * changes. Answers what is being made; null: there is no frame.
  */
 export function openMaking(
   editing: Editing,
@@ -56,7 +57,7 @@ export function closeMaking(editing: Editing) {
   editing.making.set(null);
 }
 
-/** Gives the frame its made pixels, as one step of the history; does nothing while there is nothing to use. */
+/** Gives the frame its made pixels as one step of the history, and closes the panel; nothing if nothing can be used. */
 export async function takeMade(editing: Editing, making: Making) {
   const pictures = await making.complete();
   if (!pictures || editing.making.get() !== making) return;
@@ -95,7 +96,7 @@ function apply(editing: Editing, frame: number, pictures: readonly Picture[]) {
 
 const namedBy = (name: string | null) => (name ? { name } : {});
 
-/** The name of a file of the show, for people. */
+/** The name of a file of the show by its hash; null: it has none, or the show does not list it. */
 export function fileName(editing: Editing, hash: string | null): string | null {
   if (hash === null) return null;
   const assets = editing.editor.state.get().show.rest.assets;

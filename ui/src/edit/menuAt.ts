@@ -2,8 +2,8 @@ import type { Point } from '../base/geometry';
 
 /** An open menu of the stage. */
 export interface MenuAt {
-  /** Its corner on the canvas, CSS pixels. */
+  /** The menu's corner on the canvas, CSS pixels. */
   at: Point;
-  /** What it is about; a number: this no-go area. */
+  /** What the menu is about; a number: index of a no-go area. */
   about: 'pixels' | 'floor' | number;
 }

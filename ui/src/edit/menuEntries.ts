@@ -10,7 +10,7 @@ import type { Editing } from './editing';
 import { openMaking } from './makes';
 import type { MenuAt } from './menuAt';
 
-/** An entry of a menu; a line stands between entries of different kinds. */
+/** An entry of a menu, or a line between groups of entries. `off`: it cannot be chosen now. */
 export type MenuEntry = 'line' | { label: string; keys?: string; off?: boolean; act: () => void };
 
 export function entriesOf(editing: Editing, about: MenuAt['about']): MenuEntry[] {
@@ -81,7 +81,10 @@ function floorEntries(editing: Editing): MenuEntry[] {
   ];
 }
 
-/** Opens the menu at a pointer. A pixel that is not chosen becomes the selection, the bare floor ends it. */
+/**
+ * Opens the menu at `at`, CSS pixels. A pixel under the pointer that is not selected becomes the selection, with its
+ * group. Without a pixel the selection ends.
+ */
 export function openMenu(editing: Editing, at: Point, touch: Touch) {
   const { editor, menu } = editing;
   const hit = pixelAt(editor, touch);
@@ -96,7 +99,7 @@ export function openMenu(editing: Editing, at: Point, touch: Touch) {
   menu.set({ at, about: area >= 0 ? area : 'floor' });
 }
 
-/** Opens the menu by keyboard: at the chosen pixels, or in the middle of the stage. */
+/** Opens the menu by keyboard at the chosen pixels, or in the middle of the view; not while the Make panel is open. */
 export function openMenuByKey(editing: Editing) {
   if (editing.making.get()) return;
   const { camera, width_px, height_px } = editing.view.get();

@@ -9,8 +9,9 @@ import { paintPins } from '../stage/pinMark';
 import type { StageOptions } from './editing';
 import { FLOOR } from '../stage/palette';
 
-/** Distance of the handles from the pixels they hold, CSS pixels. */
+/** Distance of the box of handles from the selected pixels, CSS pixels. */
 const HANDLE_GAP_PX = 16;
+/** A press nearer than this to a handle takes it, CSS pixels. */
 const HANDLE_REACH_PX = 11;
 
 /** Handles of the box around the selection, CSS pixels; none for fewer than two pixels. */
@@ -45,7 +46,7 @@ function handlesOf(state: EditorState, camera: Camera): { handle: Handle; at: Po
   ];
 }
 
-/** The handle under a pointer that may miss by `reach_px`. */
+/** The handle nearer to a pointer than `HANDLE_REACH_PX` or `reach_px`, whichever is larger; null: none. */
 export const handleAt = (state: EditorState, camera: Camera, at: Point, reach_px: number) =>
   handlesOf(state, camera).find(
     (h) => Math.hypot(h.at.x - at.x, h.at.y - at.y) < Math.max(HANDLE_REACH_PX, reach_px),
@@ -54,7 +55,7 @@ export const handleAt = (state: EditorState, camera: Camera, at: Point, reach_px
 let markedFor: Frame | null = null;
 let marks: Marks = { tooClose: new Set(), offFloor: new Set() };
 
-/** Marks of the frame on the stage, worked out once for each state of it. */
+/** Marks of the frame on the stage, worked out again only when the frame is another object. */
 export function marksNow(state: EditorState): Marks {
   const frame = state.show.frames[state.frame];
   if (frame && frame !== markedFor) {
@@ -66,7 +67,7 @@ export function marksNow(state: EditorState): Marks {
 
 const sprites = createSprites();
 
-/** Draws selection, wrong pixels and the current gesture over the lights. */
+/** Draws over the lights: selection and its handles, wrong pixels, pins, ids if wanted, and the current gesture. */
 export function paintOverlay(
   context: CanvasRenderingContext2D,
   camera: Camera,

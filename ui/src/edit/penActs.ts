@@ -14,7 +14,10 @@ export function penFloor({ editor }: Editing): PenFloor {
 /** How far from the last point a further one is added by keyboard, metres. */
 const NEXT_M = 0.2;
 
-/** Adds a point after the chosen one: in the middle of the piece that begins there, or beyond the end of the line. */
+/**
+ * Adds a point after the chosen one, or without one after the last, and chooses it. It is halfway to the next point.
+ * After the end of an open line it is `NEXT_M` to the right. A first point is `NEXT_M` left of the floor's middle.
+ */
 export function addPoint(editing: Editing, making: Making) {
   const line = penLine(making);
   if (!line) return;
@@ -30,7 +33,7 @@ export function addPoint(editing: Editing, making: Making) {
   choosePoint(making, index);
 }
 
-/** Removes the chosen point; a line keeps two. */
+/** Removes the chosen point, unless the line has fewer than three, and chooses the next one. */
 export function removeChosenPoint(editing: Editing, making: Making) {
   const line = penLine(making);
   if (!line || line.chosen === null || line.points.length < 3) return;
@@ -38,7 +41,7 @@ export function removeChosenPoint(editing: Editing, making: Making) {
   choosePoint(making, Math.min(line.chosen, line.points.length - 2));
 }
 
-/** Moves the chosen point, or the whole picture when there is none, metres. */
+/** Moves the chosen point of a line, or without one the whole picture that is made, by `by`, metres. */
 export function nudgeMaking(editing: Editing, making: Making, by: Point) {
   const line = penLine(making);
   const point = line && line.chosen !== null ? line.points[line.chosen] : undefined;
@@ -50,7 +53,10 @@ export function nudgeMaking(editing: Editing, making: Making, by: Point) {
   setPoints(making, withPoint(line.points, line.chosen, moved), penFloor(editing));
 }
 
-/** Draws a line on the floor: in the open Make panel, or in a new one. A frame made from such a line gets it to change. */
+/**
+ * Lets the user draw a line on the floor, in the open Make panel or a new one. The line is freehand, unless the panel
+ * or the frame's source has a drawn line already.
+ */
 export function openDrawing(editing: Editing) {
   const making = editing.making.get();
   if (!making) openMaking(editing, 'shape', { shape: 'freehand' }, (d) => drawnKind(d) !== null);

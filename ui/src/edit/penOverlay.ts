@@ -3,7 +3,10 @@ import { FLOOR } from '../stage/palette';
 import { middles } from '../make/drawnLine';
 import type { PenLine } from '../make/pen';
 
-/** Draws the points of a line that is being drawn, the straight pieces between them, and where more can be added. */
+/**
+ * Draws the points of a drawn line and dashes straight from one to the next. When no points are being added, small dots
+ * mark where one can be inserted.
+ */
 export function paintPen(c: CanvasRenderingContext2D, camera: Camera, line: PenLine) {
   const places = line.points.map((p) => canvasFromStage(camera, p));
   c.strokeStyle = FLOOR.guide;

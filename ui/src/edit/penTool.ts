@@ -14,14 +14,14 @@ import { NO_OVERLAY } from '../model/editorState';
 import type { Editor } from '../model/editor';
 import type { Tool, Touch } from '../model/tool';
 
-/** What a press with the pen does. */
+/** What a press with the pen does; `index`: of the point that is taken, or of the new one. */
 type Press =
   | { does: 'point'; index: number }
   | { does: 'insert'; index: number }
   | { does: 'append' }
   | { does: 'stroke' };
 
-/** What a press does to the line that is made; null: it is not a matter of the pen. */
+/** What a press does to the line that is made; null: nothing, the press may mean something else. */
 function pressOn(line: PenLine, touch: Touch): Press | null {
   const isNear = (p: Point) =>
     Math.hypot(p.x - touch.at.x, p.y - touch.at.y) < Math.max(touch.reach_m, APART_M);
@@ -37,7 +37,7 @@ function pressOn(line: PenLine, touch: Touch): Press | null {
   return middle ? { does: 'insert', index: middle.index } : null;
 }
 
-/** The pen for a press on the stage; null: the press is not a matter of the pen. */
+/** The pen for a press on the stage; null: no line is drawn, or the press is not on it. */
 export function penFor(making: Making, touch: Touch): Tool | null {
   const line = penLine(making);
   const press = line && pressOn(line, touch);
@@ -46,7 +46,7 @@ export function penFor(making: Making, touch: Touch): Tool | null {
 
 interface Held {
   before: Draft;
-  /** The point that follows the pointer, and all points; a stroke: the points so far. */
+  /** Index of the point that follows the pointer; null: a stroke. `points`: all points, of a stroke those until now. */
   index: number | null;
   points: readonly Point[];
 }
@@ -96,7 +96,7 @@ function createPenTool(making: Making, press: Press): Tool {
         return;
       }
       const { points } = held;
-      // The first press of a straight line is its beginning, and the drag its end.
+      // A drag that begins with the first point adds a second one, which follows the pointer.
       const isFirst = points.length === 1 && press.does === 'append';
       if (isFirst && isSame(points[0], at)) return;
       const moved = isFirst ? [...points, at] : withPoint(points, held.index, at);
@@ -124,8 +124,8 @@ const isSame = (a: Point | undefined, b: Point) =>
   a !== undefined && Math.hypot(a.x - b.x, a.y - b.y) < APART_M;
 
 /**
- * Whether a press on a point does something by itself: while points are added, a press on the first one closes the line,
- * and a double click ends it; later a double click removes the point.
+ * Does what a press on a point does by itself, and answers whether it did something. While points are added, a press
+ * on the first of at least three closes the line, and a double click ends it. Later a double click removes a point.
  */
 function isAct(
   making: Making,

@@ -20,14 +20,15 @@ import type { Tool, Touch } from '../model/tool';
 import { unitStore } from '../session/preferences';
 import type { Camera } from '../stage/camera';
 
-/** What of a picture is dragged. */
+/** What a drag does to a picture: `scale` at a corner, `stretch` at a side. */
 export type Grip =
   { kind: 'move' } | { kind: 'turn' } | ({ kind: 'scale' } & Corner) | ({ kind: 'stretch' } & Side);
 
-/** Distance of the corners' handles from the lights, and of the knob from the upper side, CSS pixels. */
+/** Distance of the box of handles from the picture, CSS pixels. */
 const GAP_PX = 16;
+/** Distance of the knob that turns the picture from the upper side of the box, CSS pixels. */
 const KNOB_PX = 26;
-/** A shorter side has no handle between those of its corners, CSS pixels. */
+/** A side of the picture that is not longer than this gets no handle of its own, CSS pixels. */
 const SIDE_PX = 40;
 /** A press this near to a handle takes it, CSS pixels. */
 const REACH_PX = 11;
@@ -35,7 +36,7 @@ const REACH_PX = 11;
 export const pictureNow = (making: Making): Picture | null =>
   pictureOf(making.draft.get(), making.made.get());
 
-/** The handles of a picture, stage metres; those of sides only where it can be stretched, and on sides with room for one. */
+/** The handles of a picture, stage metres: knob, corners, and if it `stretches` sides longer than `SIDE_PX`. */
 export function gripsOf(
   picture: Picture,
   camera: Camera,
@@ -66,7 +67,7 @@ export function gripsOf(
   ];
 }
 
-/** What a press takes: a handle, or the picture if it is inside its box; null: neither. */
+/** What a press takes: a handle, or the picture if the press is inside the box of handles; null: neither. */
 export function gripAt(
   picture: Picture,
   camera: Camera,
@@ -86,7 +87,10 @@ export function gripAt(
   return isInside ? { kind: 'move' } : null;
 }
 
-/** Moves, scales, stretches or turns the picture that is made. Shift: steps of 15°, or one axis; Alt: about the middle. */
+/**
+ * Moves, scales, stretches or turns the picture that is made. Shift: turning in steps of 15°, moving along one axis.
+ * Alt: scaling and stretching about the middle.
+ */
 export function createPictureTool(making: Making, grip: Grip, stretch: Stretch | null): Tool {
   let from: { at: Point; picture: Picture; draft: Draft } | null = null;
   return {
@@ -111,7 +115,7 @@ export function createPictureTool(making: Making, grip: Grip, stretch: Stretch |
     },
     up(editor) {
       from = null;
-      // The show has not changed: this ends the gesture and its hint.
+      // The show has not changed, so that this makes no mark: it ends the gesture and takes the hint away.
       editor.commit('Make');
     },
     cancel(editor) {
@@ -145,7 +149,7 @@ function changed(
   return movedBy(picture, by, floor);
 }
 
-/** Moves the picture by keyboard, metres. */
+/** Moves the picture that is made by `by`, metres; nothing without a picture. */
 export function nudgePicture(
   making: Making,
   by: Point,

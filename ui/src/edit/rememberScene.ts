@@ -10,7 +10,7 @@ import { editScene, isSameOnStage, withMade } from './scene';
 
 type SceneAt = (now_ms: number) => Scene;
 
-/** Returns the same scene until one of its inputs changes. */
+/** A function of the time that gives the editor's scene: the same object until one of its inputs changes. */
 export function rememberScene(editing: Editing): SceneAt {
   let inputs: unknown[] = [];
   let scene: Scene | null = null;
@@ -61,7 +61,7 @@ export function rememberScene(editing: Editing): SceneAt {
 const motionDrawn = ({ moving, motionDrawn }: Editing, state: EditorState) =>
   shownMotion(state, moving.get(), motionDrawn.get());
 
-/** The scene that was there last while the audience view lies over the stage: what is not seen need not be drawn. */
+/** `sceneAt`, but while the audience view covers the stage the last scene, so that nothing is drawn. */
 export function unlessCovered({ audience }: Editing, sceneAt: SceneAt): SceneAt {
   let last: Scene | null = null;
   return (now_ms) => {

@@ -11,7 +11,7 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-/** A library with the read-only show "heart"; what was asked of it. */
+/** Replaces `fetch` by a library with the read-only show "heart"; answers the list of requests, path and version. */
 function library() {
   const puts: string[] = [];
   vi.stubGlobal('fetch', (path: string, init: RequestInit) => {

@@ -19,17 +19,17 @@ import type { Session } from '../session/session';
 export interface Saving {
   saver: Saver;
   keeper: Keeper;
-  /** The show in the library that the next save goes to: once a read-only show was saved, its copy. */
+  /** Name of the show that the next save goes to: the edited one, or its copy once a save became a copy. */
   name(): string;
 }
 
 const textOf = (show: Show) => JSON.stringify(writeShow(show));
-/** The same text for the same show, whatever the order of keys in the document. */
+/** A text that is the same for documents of the same show, whatever the order of the keys that this screen reads. */
 const normal = (document: unknown) => textOf(readShow(document));
 
 /**
- * `left`: what an earlier page left and this editor begins with. `copied`: the show is read-only, and a copy of it was
- * saved and is what is saved from now on.
+ * `first`: name of the show; `etag`: its version. `left`: a draft that an earlier page left and this editor begins
+ * with; null: none. `copied`: called when a save became a copy, which later saves go to.
  */
 export function createSaving(
   drafts: Drafts,
@@ -69,15 +69,15 @@ export function createSaving(
   return { saver, keeper, name: target.name };
 }
 
-/** The show that is saved. */
+/** The show in the library that is saved to. */
 interface Target {
   name(): string;
-  /** What was sent is in the library as this copy. */
+  /** The server saved what was sent as this copy: later saves go to it. */
   move(copy: ShowEntry): void;
 }
 
 function createPut(target: Target, editor: Editor) {
-  /** The body of a request without an answer: the server may have saved it. */
+  /** The show of the last request that failed without a conflict: the server may have saved it. Null: none. */
   let sent: string | null = null;
   const mine = async () => {
     const theirs = await getShow(target.name());
@@ -101,7 +101,7 @@ function createPut(target: Target, editor: Editor) {
       if (!conflict) sent = normal(writeShow(editor.state.get().show));
       const etag = conflict ? await mine().catch(() => null) : null;
       if (etag === null) return { ok: false, conflict, reason };
-      // The request without an answer was saved: save the changes since then on top of it.
+      // The server has the show of the failed request: save the changes since then on top of it.
       return save(body, etag).catch((again: unknown) => ({
         ok: false,
         conflict: again instanceof Refused && again.status === 412,
@@ -111,7 +111,10 @@ function createPut(target: Target, editor: Editor) {
   };
 }
 
-/** The draft of a closed page with unsaved changes of this show: the `wanted` one, or the newest; `null`: none. */
+/**
+ * The left draft of this show with the id `wanted`, else the newest; null: there is none. Drafts that equal `show` hold
+ * no unsaved changes and are dropped.
+ */
 export function draftOf(
   session: Session,
   name: string,
@@ -126,7 +129,7 @@ export function draftOf(
   return unsaved.find((draft) => draft.id === wanted) ?? unsaved[0] ?? null;
 }
 
-/** Restores a draft as a change. If another screen saved a newer version, saving finds the conflict. */
+/** Restores a draft as a change of the editor, which is then saved, and tells the user. */
 export function restoreDraft(session: Session, { editor, keeper }: Restored, draft: LeftDraft) {
   editor.change('Restored changes', () => readShow(draft.document));
   keeper.flush();

@@ -31,7 +31,7 @@ const ghost = (frame: Frame | undefined, alpha: number): Dot[] =>
 
 let ghosts: { before?: Frame; after?: Frame; dots: readonly Dot[] } = { dots: NOTHING };
 
-/** The frame before and after, hollow; the same list while they stay, so that a drag does not paint them anew. */
+/** Dots of the frames before and after; the same list while these stay, so that a drag does not paint them anew. */
 function ghostsOf({ show, frame }: EditorState): readonly Dot[] {
   const [before, after] = [show.frames[frame - 1], show.frames[frame + 1]];
   if (ghosts.before !== before || ghosts.after !== after)
@@ -39,7 +39,7 @@ function ghostsOf({ show, frame }: EditorState): readonly Dot[] {
   return ghosts.dots;
 }
 
-/** The state with the pixels that a frame would get in place of its own. */
+/** The state with the made pixels in place of those of the frame with `key`, and nothing selected; null: as it is. */
 export function withMade(
   state: EditorState,
   key: number,
@@ -53,19 +53,19 @@ export function withMade(
 
 const NO_SELECTION: ReadonlySet<number> = new Set();
 
-/** The robots' light, and what has handles on the stage. */
+/** The robots' colours, and the layer and the motion with handles on the stage; null: none. */
 export interface SceneLight {
   lit: Colours | null;
   layer: Layer | null;
-  /** The motion whose handles are shown. */
+  /** The motion with its handles on the stage. */
   motion?: ShownMotion | null;
 }
 
 const NO_LIGHT: SceneLight = { lit: null, layer: null };
 
 /**
- * Whether the stage shows the same in both states while no moment of a preview is on it: a drag on the timeline changes
- * times alone, and the floor need not be drawn anew for it.
+ * Whether the stage shows the same in both states, if no moment of a preview is on it. A drag on the timeline changes
+ * only times, so that the floor need not be drawn anew.
  */
 export function isSameOnStage(a: EditorState, b: EditorState): boolean {
   if (a === b) return true;
@@ -83,7 +83,7 @@ export function isSameOnStage(a: EditorState, b: EditorState): boolean {
   );
 }
 
-/** What the editor's stage shows: the frame on it, or the plan at a moment of the show. */
+/** What the editor's stage shows: the frame on it, or with a plan the moment `time_s`, seconds from the first drive. */
 export function editScene(
   state: EditorState,
   options: StageOptions,

@@ -5,8 +5,8 @@ import type { Editor } from '../model/editor';
 const kept = new WeakMap<Editor, Store<EditorState>>();
 
 /**
- * The editor's state between gestures. The stage follows a drag sixty times a second; panels, strip and thumbnails need
- * only what it ends in.
+ * The editor's state without the changes of a gesture that is under way: panels, strip and thumbnails need only what a
+ * gesture ends in. The same store for the same editor.
  */
 export function settledOf(editor: Editor): Store<EditorState> {
   let settled = kept.get(editor);

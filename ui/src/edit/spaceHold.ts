@@ -1,14 +1,14 @@
 import { createStore, type Readable } from '../base/store';
 import type { Pans } from '../stage/pans';
 
-/** The space key: a tap does one thing, and a drag while it is held moves the view. */
+/** The space key: a drag while it is held moves the view; without a drag, letting it go does something else. */
 export interface SpaceHold extends Pans {
   held: Readable<boolean>;
   /** The key went down. */
   press(): void;
 }
 
-/** `alsoPans`: whether a drag pans without the key; `tap`: what the key does when nothing was dragged. */
+/** `alsoPans`: whether a drag pans without the key; `tap`: called when the key is let go and nothing was dragged. */
 export function createSpaceHold(alsoPans: () => boolean, tap: () => void): SpaceHold {
   const held = createStore(false);
   let hasPanned = false;
@@ -30,7 +30,7 @@ export function createSpaceHold(alsoPans: () => boolean, tap: () => void): Space
         if (!hasPanned) tap();
       };
       window.addEventListener('keyup', up, { signal: stop.signal });
-      // Another window gets the key's end.
+      // This window will not hear that the key is let go.
       window.addEventListener('blur', () => end(), { signal: stop.signal });
     },
     wanted: () => held.get() || alsoPans(),

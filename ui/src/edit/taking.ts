@@ -12,19 +12,19 @@ import type { Editing } from './editing';
 import { openMaking } from './makes';
 import { takeMusic } from './music/musicActs';
 
-/** Largest file that is taken, bytes: more than drawings and photographs have. */
+/** Largest file that is taken, but for music, bytes: more than drawings and photographs have. */
 const FILE_BYTES_MAX = 16 * 2 ** 20;
 
-/** Largest file of music, bytes. */
+/** Largest file that is read at all, bytes: what it is shows only then. */
 const TAKEN_BYTES_MAX = Math.max(FILE_BYTES_MAX, MUSIC_BYTES_MAX);
 
-/** Files that are taken at once: each makes a frame. */
+/** Most files that are taken at once. */
 const FILES_MAX = 50;
 
-/** Longest text that is taken as words, characters; longer ones need letters of a millimetre. */
+/** Longest text that is taken as words, characters; longer text is cut. */
 export const TEXT_MAX = 200;
 
-/** Opens the Make panel with what was dropped, pasted or chosen, or a show in place of this one. */
+/** Takes what was dropped or pasted: files as `takeFiles` does, else the text as words in the Make panel. */
 export async function takeAnything(
   session: Session,
   editing: Editing,
@@ -41,7 +41,7 @@ export async function takeAnything(
   }
 }
 
-/** The file that a text is: a drawing, a show, or a list of at least two lines, because a line may well be words. */
+/** The text as a file, if it is a drawing, a show or a list; else empty. A single line may only be the first two. */
 async function listsIn(editing: Editing, text: string): Promise<File[]> {
   const start = text.trimStart().charAt(0);
   const mayBe = start === '<' || start === '{' || start === '[' || text.trim().includes('\n');
@@ -57,7 +57,10 @@ function takeWords(editing: Editing, text: string) {
   openMaking(editing, 'text')?.change({ tab: 'text', text: words });
 }
 
-/** Opens the Make panel with files, or a show in place of this one. */
+/**
+ * Takes files by what they are. A show is uploaded and opened, and ends the taking. Music becomes the show's music.
+ * Sources of frames, else a font, open the Make panel. A notice names files that cannot be used.
+ */
 export async function takeFiles(session: Session, editing: Editing, files: readonly File[]) {
   const looked: Looked[] = [];
   for (const file of files.slice(0, FILES_MAX)) {
@@ -88,7 +91,7 @@ export interface Looked {
   hash: string;
   name: string;
   kind: MakeFile['kind'];
-  /** Why it is of no use; null: it is. */
+  /** Why the file cannot be used; null: it can. */
   why: string | null;
 }
 
@@ -98,7 +101,7 @@ const draftFile = ({ hash, name, kind }: Looked): DraftFile => ({
   kind: kind as FileSource,
 });
 
-/** Looks what a file is, and keeps it until a frame uses it. */
+/** Finds out what a file is, and keeps it in `editing.files` if it can be used. */
 export async function look(editing: Editing, file: File): Promise<Looked> {
   const refused = (why: string): Looked => ({ hash: '', name: file.name, kind: null, why });
   if (file.size > TAKEN_BYTES_MAX) return refused(tooLarge(file.size, TAKEN_BYTES_MAX));
@@ -115,7 +118,7 @@ export async function look(editing: Editing, file: File): Promise<Looked> {
 const tooLarge = (bytes: number, most: number) =>
   `It has ${Math.ceil(bytes / 2 ** 20)} MiB; use a file of at most ${most / 2 ** 20} MiB.`;
 
-/** Says of files what they are, and what can be used. */
+/** Shows a notice about files that cannot be used: why not the first, how many more, and what can be used. */
 function refuse(refused: readonly Looked[]) {
   const [first] = refused;
   if (!first) return;
@@ -123,7 +126,7 @@ function refuse(refused: readonly Looked[]) {
   notify('error', `Can't use ${first.name}: ${first.why}${more} You can use ${DROPPABLE}.`);
 }
 
-/** An animation becomes frames by itself; of all others, each becomes one, in the order of their names. */
+/** The files that are used together: the first animation alone, else all, by name. `left`: number of the others. */
 function together(files: DraftFile[]): { used: DraftFile[]; left: number } {
   const film = files.find(({ kind }) => kind === 'animation');
   if (film) return { used: [film], left: files.length - 1 };
@@ -131,7 +134,7 @@ function together(files: DraftFile[]): { used: DraftFile[]; left: number } {
   return { used: files.sort((a, b) => inOrder.compare(a.name, b.name)), left: 0 };
 }
 
-/** Sets the words of a making in a font of one's own. */
+/** Sets the words that are made in the user's own font. */
 export async function takeFont(editing: Editing, making: Making, file: File) {
   try {
     const found = await look(editing, file);

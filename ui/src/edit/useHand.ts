@@ -26,23 +26,24 @@ import { applyMotion } from './motion/motionActs';
 import { motionAtHand } from './motion/motionOverlay';
 import { openMenu } from './menuEntries';
 
-/** How far a mouse and a finger may miss, CSS pixels. */
+/** How far a pointer may miss what is meant, CSS pixels. */
 const REACH_PX = { mouse: 9, pen: 12, touch: 20 } as const;
 
 const reachOf = (event: MouseEvent) =>
   REACH_PX[(event as PointerEvent).pointerType as keyof typeof REACH_PX] ?? REACH_PX.mouse;
 
-/** The grid that is snapped to: a fifth of what is drawn, but no finer than a centimetre. */
+/** Step of the grid that is snapped to, metres: a tenth of the grid step at this zoom, but at least a centimetre. */
 const snapStep = (scale: number) => Math.max(0.01, gridStep(scale) / 10);
 
-/** A second press within this time and distance is a double click, milliseconds and CSS pixels. */
+/** A press within this time of the last one may be a double click, milliseconds. */
 const AGAIN_MS = 400;
+/** A press nearer than this to the last one may be a double click, CSS pixels. */
 const AGAIN_PX = 10;
 
-/** Tools that the handles of the selection would be in the way of. */
+/** Tools with which the handles of the selection do not work, because they would be in the way. */
 const NO_HANDLES: ReadonlySet<ToolName> = new Set(['fill', 'area']);
 
-/** The hand moves the view, which is not a matter of tools. */
+/** A tool that does nothing, for the hand: the view itself handles its drags. */
 const IDLE: Tool = { down() {}, move() {}, up() {}, cancel: () => false };
 
 function createTool(editing: Editing): Tool {
@@ -70,7 +71,10 @@ function createTool(editing: Editing): Tool {
   }
 }
 
-/** Sends pointer events to the chosen tool, or to the handle under the pointer; Escape cancels the gesture. */
+/**
+ * Sends pointer events to a handle under the pointer, of the Make panel, a layer, a motion or the selection, else to
+ * the chosen tool. `giveUp` cancels the gesture and answers whether there was one.
+ */
 export function useHand(editing: Editing): { hand: Hand; giveUp: () => boolean } {
   const name = useStore(editing.tool);
   const led = useMemo(() => {
@@ -97,7 +101,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
       again: presses.isAgain(),
     };
   };
-  /** A finger that means a pixel is not given the handle beside it. */
+  /** The handle of the selection under a pointer. One that is only near counts if no pixel is under the pointer. */
   const handleUnder = (at: Point, event: PointerEvent) => {
     const [state, { camera }] = [editor.state.get(), view.get()];
     const near = handleAt(state, camera, at, 0);
@@ -124,7 +128,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
     hand: {
       down(at, event, adds) {
         const making = editing.making.get();
-        // The Make panel shows pixels that the frame does not have yet: only their picture is dragged.
+        // With the Make panel open, the stage shows pixels that the frame does not have yet: they cannot be dragged.
         if (making) {
           presses.press(at, event.timeStamp);
           const press = touch(at, event, adds);
@@ -179,7 +183,7 @@ function lead(editing: Editing): { hand: Hand; giveUp: () => boolean } {
   };
 }
 
-/** Tells the second and further presses of a double click from the first. */
+/** Notes presses and tells whether the last one was near the one before it in time and place: a double click. */
 function createPresses() {
   let last = { at: { x: 0, y: 0 }, ms: -Infinity };
   let again = false;

@@ -3,10 +3,10 @@ import { useStore } from '../base/store';
 import { timelineOf } from '../model/timeline';
 import type { Editing } from './editing';
 
-/** Longest wait for a plan, milliseconds: then the preview shows the frames without the drives between them. */
+/** Longest wait for a plan, milliseconds; after it the preview shows the frames without the drives between them. */
 const PLAN_WAIT_MS = 3000;
 
-/** Advances the preview with every picture that the browser draws, and keeps the full plan up to date for it. */
+/** Advances a running preview at each refresh of the screen, and keeps the full plan up to date while one is shown. */
 export function usePreview({ preview, editor, full }: Editing) {
   const running = useStore(preview.running);
   const isShown = useStore(preview.time_s, (time_s) => time_s !== null);

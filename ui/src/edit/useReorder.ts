@@ -1,13 +1,13 @@
 import { useCallback, useEffect, useRef, useState, type DragEvent, type RefObject } from 'react';
 import { listenToHold } from './holdDrag';
 
-/** The items of a list that are dragged to other places, by mouse and by a finger that is held. */
+/** Reorders items of a list by dragging, with a mouse or with a finger that was held still. */
 interface Reorder {
   list: RefObject<HTMLUListElement | null>;
-  /** An item is dragged by mouse. */
+  /** Call when the mouse begins to drag the item at `index`. */
   begin(index: number): void;
   end(): void;
-  /** Of each item: what is dragged may be dropped on it. */
+  /** Properties for the item at `index`, so that another can be dropped on it. */
   target(index: number): {
     'data-over': true | undefined;
     onDragOver: (event: DragEvent) => void;
@@ -15,7 +15,7 @@ interface Reorder {
   };
 }
 
-/** `move` gets the indices of the item that was dragged and of the one it was dropped on; it must stay the same function. */
+/** `move` gets the indices of the dragged item and of the one it was dropped on; pass a stable function. */
 export function useReorder(move: (from: number, to: number) => void): Reorder {
   const list = useRef<HTMLUListElement>(null);
   const dragged = useRef<number | null>(null);

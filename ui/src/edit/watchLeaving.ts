@@ -2,8 +2,9 @@ import type { Keeper } from '../model/drafts';
 import type { Saver } from '../model/saver';
 
 /**
- * Writes the draft when the page goes, and asks before it goes with changes there was no room for; writes it again when
- * the page comes back, or when another page took it off the shelf. Returns how to stop.
+ * Writes the draft when the page is hidden or closed, and asks before the page closes if the draft did not fit into
+ * the storage. Writes unsaved changes again when the page comes back, or when another page removed the draft. Returns
+ * a function that ends this.
  */
 export function watchLeaving({ keeper, saver }: { keeper: Keeper; saver: Saver }): () => void {
   const stop = new AbortController();

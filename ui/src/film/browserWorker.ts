@@ -1,5 +1,5 @@
 import type { FilmWorker } from './filming';
 
-/** A worker with the module and the encoder, which the browser loads only now. */
+/** Starts a worker that makes a film. Only now does the browser load its script. */
 export const startFilmWorker = (): FilmWorker =>
   new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'film' });

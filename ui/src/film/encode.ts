@@ -12,21 +12,25 @@ import {
 } from 'mediabunny';
 import type { FilmKind, FilmMusic, FilmSettings } from './protocol';
 
-/** Codecs in the order in which they are tried. VP8 is left out: it takes ten times as long at 1080 lines. */
+/** Video codecs by kind of film, in the order in which they are tried. VP8 is left out: it takes ten times as long. */
 const CODECS = { mp4: ['avc', 'av1', 'vp9'], webm: ['vp9', 'av1'] } as const;
-/** Bits a pixel and picture: lights on black are easy. */
+/** Bits of video per pixel of each picture: lights on black need few. A larger value makes larger, better files. */
 const BITS_A_PIXEL = 0.12;
+/** Bits of sound a second. */
 const SOUND_BITRATE = 160_000;
-/** Most samples of sound that are encoded at once. */
+/** Most samples of each channel that are encoded at once. */
 const SOUND_PIECE = 1 << 16;
 
 export interface FilmEncoder {
-  /** A picture, four bytes a pixel. Resolves when the encoder takes more. */
+  /** Adds picture `number`, counted from 0, four bytes a pixel. Resolves when the encoder takes more. */
   add(picture: Uint8Array, number: number): Promise<void>;
   finish(): Promise<ArrayBuffer>;
 }
 
-/** An encoder of this browser for a film; `music` begins at `musicBegins_s`, and ends with the film. */
+/**
+ * An encoder of this browser for a film of `film_s` seconds. `music` begins at `musicBegins_s`, and ends with the film
+ * at the latest. Throws a text for people if the browser cannot encode it.
+ */
 export async function createEncoder(
   { kind, width, height, fps }: FilmSettings,
   music: FilmMusic | null,
@@ -75,7 +79,7 @@ async function soundSource({ channels, rate_Hz }: FilmMusic): Promise<AudioSampl
   return new AudioSampleSource({ codec: 'opus', bitrate: SOUND_BITRATE });
 }
 
-/** Silence until the music begins, then the music until the film ends. */
+/** Adds silence until the music begins, then the music until it or the film ends. */
 async function addSound(
   source: AudioSampleSource,
   { channels, rate_Hz }: FilmMusic,

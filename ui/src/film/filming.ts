@@ -10,14 +10,14 @@ export type FilmWorker = WorkerLike<FilmAsk, FilmReply>;
 
 /** A film on its way. */
 export interface Filming {
-  /** The finished file. Rejects with a message for people; never settles after `cancel`. */
+  /** The finished file. Rejects with a message for people; does not settle any more after `cancel`. */
   film: Promise<Uint8Array<ArrayBuffer>>;
   cancel(): void;
 }
 
 /**
- * Makes a film of a planned show in a worker. `progress` gets the share that is done. Pictures that cannot be loaded are
- * left out, as on the stage.
+ * Makes a film of a planned show in a worker. `progress` gets the share that is painted, 0 to 1. Pictures of layers
+ * that cannot be loaded are left out.
  */
 export function startFilm(
   start: () => FilmWorker,

@@ -9,14 +9,14 @@ export interface FilmSettings {
   width: number;
   height: number;
   fps: number;
-  /** From seats before the front edge; otherwise from above. */
+  /** Whether the film shows the floor from seats before its front edge; otherwise from above. */
   fromFront: boolean;
 }
 
 /** Decoded music. */
 export interface FilmMusic {
   rate_Hz: number;
-  /** Samples of each channel; 1 is full scale. */
+  /** Samples of each channel, -1 to 1. */
   channels: Float32Array<ArrayBuffer>[];
 }
 

@@ -5,7 +5,7 @@ import { messageOf } from '../base/errors';
 import { createEncoder } from './encode';
 import type { FilmAsk, FilmReply } from './protocol';
 
-/** Least time between two messages of how far the film is, milliseconds. */
+/** Least time between two messages that say how far the film is, milliseconds. */
 const TOLD_EVERY_MS = 100;
 
 const say = (reply: FilmReply, transfer: Transferable[] = []) =>

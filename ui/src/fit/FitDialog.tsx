@@ -14,10 +14,10 @@ import { Thumbnail } from '../stage/Thumbnail';
 import { fitShow, withPixels, type Fitted } from './fitting';
 import styles from './Fit.module.css';
 
-/** Frames that are shown; all are fitted. */
+/** Most frames that are shown before and after; all are fitted. */
 const SHOWN_MAX = 60;
 
-/** Shows every frame of the open show before and after it is fitted to the robots that are there, and fits it. */
+/** Shows the frames of the show before and after it is fitted to `robots` robots, and fits it if the user agrees. */
 export default function FitDialog({ robots }: { robots: number }) {
   const session = useSession();
   const [show] = useState(() => showNow(session));

@@ -5,7 +5,7 @@ import { fitShow, withPixels } from './fitting';
 
 afterEach(() => vi.unstubAllGlobals());
 
-/** A server that adds no files to a show. */
+/** Replaces `fetch` by a server that answers with what it got, so that no files are added to a show. */
 const serve = () =>
   vi.stubGlobal('fetch', async (_: string, init?: RequestInit) =>
     Promise.resolve(new Response(init?.body)),

@@ -10,9 +10,9 @@ interface Props {
   lights: Lights;
   stage: Stage;
   onPress: (index: number) => void;
-  /** Whether a preset is on, where presets are switched on and off. */
+  /** Whether the preset with that title is on; absent where presets cannot be on. */
   isOn?: (title: string) => boolean;
-  /** The key of a preset. */
+  /** The key on the keyboard for the preset with that index. */
   keyOf?: (index: number) => string | undefined;
   disabled?: boolean;
 }

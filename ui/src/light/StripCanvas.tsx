@@ -9,7 +9,7 @@ import styles from './presets.module.css';
 /** Side of a robot's cell, device pixels. */
 const CELL = 12;
 const [WIDTH, HEIGHT] = [STRIP_COLUMNS * CELL, STRIP_ROWS * CELL];
-/** A moment that shows most effects, for screens that are set to less motion. */
+/** Index of the moment that is drawn on screens set to less motion: most effects show in it. */
 const STILL = 26;
 
 interface Props {
@@ -39,7 +39,7 @@ export function StripCanvas({ lights, layer, stage }: Props) {
   return <canvas className={styles.strip} ref={canvas} width={WIDTH} height={HEIGHT} aria-hidden />;
 }
 
-/** Draws the moments of a strip as they come; returns a function that ends this. */
+/** Draws the moments of a strip one after the other, over and over; returns a function that ends this. */
 function play(context: CanvasRenderingContext2D, strip: Strip): () => void {
   if (matchMedia('(prefers-reduced-motion: reduce)').matches) {
     paint(context, strip, STILL);

@@ -3,16 +3,19 @@ import type { LightAsk, LightReply } from './protocol';
 
 export type LightWorker = WorkerLike<LightAsk, LightReply>;
 
-/** Asks a worker one thing at a time; starts it with the first. */
+/** Asks a worker one thing at a time; starts the worker with the first. */
 export interface Asking {
   isBusy(): boolean;
-  /** `done` gets the answer; a failure ends the worker, and nothing is answered any more. */
+  /**
+   * `done` gets the answer. Ignored while another answer is awaited, and after a failure. A failure is answered too,
+   * and ends the worker for good.
+   */
   ask(ask: LightAsk, done: (reply: LightReply) => void): void;
   hasFailed(): boolean;
   end(): void;
 }
 
-/** An answer that takes longer is given up, milliseconds: a show of ten thousand robots is read in a second or two. */
+/** An answer that takes longer counts as a failure, milliseconds. A show of 10,000 robots takes a second or two. */
 export const ANSWER_MAX_MS = 20_000;
 
 export function createAsking(start: () => LightWorker): Asking {

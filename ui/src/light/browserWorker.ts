@@ -1,5 +1,5 @@
 import type { LightWorker } from './asking';
 
-/** A worker with the module, which the browser loads only now. */
+/** Starts a light worker. Only now does the browser load its script. */
 export const startLightWorker = (): LightWorker =>
   new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'light' });

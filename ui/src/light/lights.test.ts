@@ -19,7 +19,7 @@ const layer = (kind: string, settings: Record<string, unknown>): Layer => ({
   rest: {},
 });
 
-/** Two robots in red, then in blue, for 2 s each; a layer dims them to half. */
+/** Two robots in red, then in blue, for 2 s each, under a layer of opaque black. */
 function dimmed(): Show {
   const show = newShow('Test', 2);
   const [first] = show.frames;
@@ -33,7 +33,7 @@ function dimmed(): Show {
   return addLayer({ ...show, frames }, dark);
 }
 
-/** Waits until the module has answered what it was asked. */
+/** Waits long enough for the module to answer, milliseconds: 250. */
 const settled = () => new Promise((done) => setTimeout(done, 250));
 
 test('colours of a moment come once they are computed, and stay the same object', async () => {
@@ -118,7 +118,7 @@ test('every preset and every effect changes what robots show, by settings that t
   }
 });
 
-/** A picture of four columns, of which the second is white. */
+/** A picture of 4 × 4 pixels, black with white in the second column. */
 const stripe = () => gifOf([1], 4);
 
 test('a picture is fetched and decoded once, and shines then; one that is broken is said', async () => {

@@ -11,34 +11,33 @@ import { stripRequest, STRIP_MOMENTS, type Strip } from './strip';
 /** Red, green and blue of each robot, in the order of the plan. */
 export type Colours = Uint8Array;
 
-/** Colours of a show's robots with its layers, by the module that robots' light comes from. */
+/** Colours of a show's robots with its layers of light, computed in a worker. */
 export interface Lights {
   /**
-   * The colours at a moment, seconds from the start of the drive to the first frame. What is not known yet is asked for,
-   * and the last known colours are the answer; null: there are none, because the show has no layers or the module does
-   * not work here. The same moment of the same show has the same object.
+   * The colours at a moment, seconds from the start of the drive to the first frame. Unknown ones are asked for, and
+   * the last known colours are the answer. Null: none are known yet, the show has no layers, or the worker failed.
    */
   at(show: Show, transitions: readonly Transition[], time_s: number): Colours | null;
-  /** What a layer does on the floor of a show; null: it cannot be shown, or too many are asked for. */
+  /** Colours of a layer alone on a floor full of robots; null: the worker failed, or too many were asked for since. */
   strip(layer: Layer, stage: Stage): Promise<Strip | null>;
   /** Why pictures of layers cannot be shown, by the hash of the file. */
   pictureErrors: Readable<ReadonlyMap<string, string>>;
   end(): void;
 }
 
-/** Distance of moments: what a robot shows may be this late. Large fleets get fewer moments. */
+/** Least time between two computed moments, seconds: colours may be this late. Large fleets get longer steps. */
 const STEP_S = 0.025;
-/** Most colours a second. */
+/** Most colours that are computed for a second of the show, a robot at a moment being one; more makes slow requests. */
 const COLOURS_PER_S = 250_000;
-/** Most colours in an answer, each layer counted: a request must not take long, because the next one waits for it. */
+/** Most colours in an answer, times the number of layers, but at least one moment: the next request waits for it. */
 const COLOURS_MAX = 60_000;
-/** Answers that are kept. */
+/** Most answers with colours that are kept; above that the oldest goes. */
 const CHUNKS_MAX = 64;
-/** Least time between two readings of a show, milliseconds: while pixels are dragged it changes with every move. */
+/** Least time between two loads of a show, milliseconds, if more than its layers changed: a drag changes it often. */
 const LOAD_EVERY_MS = 200;
-/** Strips that wait at most; the oldest is given up. */
+/** Most strips that wait; above that the oldest is answered with null. */
 const STRIPS_MAX = 40;
-/** Strips that are remembered. */
+/** Most strips that are remembered; further ones are computed each time. */
 const KNOWN_MAX = 200;
 
 interface Loaded extends Planned {
@@ -58,7 +57,7 @@ export function createLights(start: () => LightWorker, fileOf: FileOf): Lights {
   const asking = createAsking(start);
   const pictures = createLayerPictures(fileOf, () => pump());
   let wantedLayers: readonly Layer[] = [];
-  /** A picture came after the layers were read. */
+  /** Whether a picture came after the layers were read. */
   let isStale = false;
   let loaded: Loaded | null = null;
   let wanted: (Planned & { time_s: number }) | null = null;
@@ -69,7 +68,7 @@ export function createLights(start: () => LightWorker, fileOf: FileOf): Lights {
   let readAt_ms = -Infinity;
   let timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** Asks for what is needed most: the show, colours of the moment, of the moments after it, a strip. */
+  /** Asks for what is needed most: a picture, the show, colours of the moment, of the moments after it, a strip. */
   const pump = () => {
     if (asking.isBusy() || asking.hasFailed()) return;
     const picture = pictures.next();
@@ -182,13 +181,13 @@ export function createLights(start: () => LightWorker, fileOf: FileOf): Lights {
   };
 }
 
-/** A moment this little before the next step belongs to it: steps are sums of rounded numbers. */
+/** A moment less than this share of a step before the next step belongs to that one, because of rounding errors. */
 const NEARLY = 1e-6;
 
 const chunkOf = ({ step_s, count }: Loaded, time_s: number) =>
   Math.floor(Math.floor(Math.max(0, time_s) / step_s + NEARLY) / count);
 
-/** Moments of an answer and their distance, for a number of robots and layers. */
+/** Number of moments in an answer and the time between two, for a number of robots and layers. */
 function paceOf(robots: number, layers: number): { step_s: number; count: number } {
   const step_s = Math.max(STEP_S, robots / COLOURS_PER_S);
   const each = Math.max(1, robots) * Math.max(1, layers);
@@ -210,7 +209,7 @@ const onlyLayersDiffer = (loaded: Loaded | null, wanted: Planned) =>
 const isLoaded = (loaded: Loaded | null, wanted: Planned) =>
   onlyLayersDiffer(loaded, wanted) && loaded && layersOf(loaded.show) === layersOf(wanted.show);
 
-/** The show's layers in a document without pixels. */
+/** The show as a document without pixels and sources, for its layers. */
 const layersAlone = (show: Show): unknown =>
   writeShow({
     ...show,

@@ -8,13 +8,13 @@ export type FileOf = (hash: string) => Promise<Uint8Array>;
 
 /** Pictures that layers project on the floor, on their way to the worker. */
 export interface LayerPictures {
-  /** Fetches the pictures of layers that are not known. */
+  /** Fetches the files of these layers' pictures, each file once. */
   want(layers: readonly Layer[]): void;
   /** Whether a layer's picture, if it has one, is on its way. */
   isWaiting(layer: Layer): boolean;
-  /** Takes a file out that the worker has to decode; undefined: there is none. */
+  /** Hands out, once, a file that the worker has to decode; undefined: none waits. */
   next(): PictureFile | undefined;
-  /** The worker has decoded a file, or says why it cannot. */
+  /** The worker has decoded a file; `error`: why it cannot, null if it did. */
   decoded(hash: string, error: string | null): void;
   /** Why pictures cannot be shown, by hash. */
   errors: Readable<ReadonlyMap<string, string>>;
@@ -32,7 +32,7 @@ export const pictureOf = ({ kind, settings }: Layer): string | null =>
 /** `changed` is called once a file is there, or cannot be. */
 export function createLayerPictures(fileOf: FileOf, changed: () => void): LayerPictures {
   const errors = createStore<ReadonlyMap<string, string>>(new Map());
-  /** By hash: whether the picture is on its way. */
+  /** By hash: true while the picture is fetched or waits to be decoded. */
   const known = new Map<string, boolean>();
   let waiting: PictureFile[] = [];
   const fail = (hash: string, why: string) => {

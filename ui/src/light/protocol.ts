@@ -1,11 +1,11 @@
 import type { LightAnswer, LightRequest } from '../api/types.gen';
 
-/** A message to the worker that has colours; it answers each in order. */
+/** A message to the worker that computes colours; it answers each, in order. */
 export type LightAsk =
   | { do: 'load'; request: LightRequest }
-  /** Other layers for the show that is loaded: a document whose pixels do not count. */
+  /** Other layers for the loaded show; pixels of the document are ignored. */
   | { do: 'relight'; document: unknown }
-  /** The file of a picture that layers project: shows and strips that are read afterwards have it. */
+  /** The file of a picture that layers project, for what is loaded, relit or made a strip of afterwards. */
   | { do: 'picture'; hash: string; bytes: Uint8Array }
   /** Colours of the loaded show at moments. */
   | { do: 'colours'; moments: Moments }
@@ -22,9 +22,9 @@ export interface Moments {
 /** A message from the worker. */
 export type LightReply =
   | { of: 'loaded'; answer: LightAnswer }
-  /** For each moment, red, green and blue of each robot. */
+  /** Moment by moment, robot by robot: red, green and blue. */
   | { of: 'colours'; bytes: Uint8Array }
-  /** The worker is of no more use. */
+  /** The request could not be answered; the asking side then gives the worker up. */
   | { of: 'failure' };
 
 /** The classes of the module, as `wasm-bindgen` writes them. */
@@ -42,7 +42,7 @@ export interface LightModule<Pictures extends PicturesOfModule> {
   LightPictures: new () => Pictures;
 }
 
-/** Answers messages with the module; keeps the show that was loaded last, and the pictures. */
+/** Answers messages with the module. Keeps the show that was loaded last, and all pictures. */
 export function createResponder<Pictures extends PicturesOfModule>({
   PlannedLight,
   LightPictures,

@@ -4,7 +4,7 @@ import { initSync, LightPictures, PlannedLight } from '../generated/browser';
 import type { LightWorker } from './asking';
 import { createResponder, type LightAsk } from './protocol';
 
-/** The real module on this thread, behind the protocol of the worker; `asked` gets each message. */
+/** A worker with the real module, on this thread; `asked` gets each message. */
 export function realLightWorker(asked: (ask: LightAsk) => void = () => undefined): LightWorker {
   initSync({ module: readFileSync(new URL('../generated/browser_bg.wasm', import.meta.url)) });
   const respond = createResponder({ PlannedLight, LightPictures });

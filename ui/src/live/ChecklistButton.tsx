@@ -5,7 +5,7 @@ import { useSession } from '../session/session';
 import { isReady } from '../session/checklist';
 import { checkNow } from '../session/start';
 
-/** Opens the checklist; a mark on it shows that something is missing. */
+/** A button that opens the checklist; a dot on it shows that not all checks pass. */
 export function ChecklistButton() {
   const session = useSession();
   const { live } = session;

@@ -7,7 +7,7 @@ import { useSession } from '../session/session';
 import { cueRows, frameText, isPlayed, wayOn, whyNoJump, type CueRow } from './cueRows';
 import styles from './CueList.module.css';
 
-/** All frames with how each is left, what plays now, and what is next in large type. */
+/** What plays now, what is next in large type, and all frames with what ends each of them. */
 export function CueList() {
   const { live, frame } = useSession();
   const show = useStore(live.opened, (o) => o.show);

@@ -9,7 +9,7 @@ import { useSession } from '../session/session';
 export function DriveDialog() {
   const session = useSession();
   const goal = useStore(session.driveAsked);
-  // While the dialog closes it still asks what it asked.
+  // The goal of the question, kept while the dialog closes.
   const [asked, setAsked] = useState<DriveGoal>(0);
   if (goal !== null && goal !== asked) setAsked(goal);
   const rows = useStore(session.live.fleet, (fleet) => fleet.rows);

@@ -3,7 +3,7 @@ import { useSession } from '../session/session';
 import page from '../parts/page.module.css';
 import styles from './DriveProgress.module.css';
 
-/** Progress of the drive to the frame: the only part of the bar that changes with every snapshot. */
+/** Progress of the drive to the frame. A component of its own, because it changes often. */
 export function DriveProgress() {
   const { live } = useSession();
   const done = useStore(live.playback, (p) => p.progress);

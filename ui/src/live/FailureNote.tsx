@@ -3,7 +3,7 @@ import { useSession } from '../session/session';
 import { GotIt, Note } from './Note';
 import { PlayOn } from './StoppedNote';
 
-/** Place and reason of the last failure, above Play, until the operator dismisses it or starts again. */
+/** The server's text about the last failure, and if the show stopped in a frame a button that plays on from it. */
 export function FailureNote() {
   const { live } = useSession();
   const failure = useStore(live.playback, (p) => p.failure);

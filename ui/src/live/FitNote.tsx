@@ -7,7 +7,7 @@ import { robotsToFit } from '../session/fitness';
 import { useSession } from '../session/session';
 import styles from './FitNote.module.css';
 
-/** Offers to fit the show to the robots that are there, before Play. */
+/** While the show is ready to play, offers to fit it to the robots that can drive, if their number does not fit it. */
 export function FitNote() {
   const { live, fitting } = useSession();
   const { show, readOnly } = useStore(live.opened);

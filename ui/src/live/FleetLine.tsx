@@ -17,8 +17,8 @@ interface Props {
   choose: (id: string) => void;
 }
 
-/** The shown values of a row as one text. The table arrives twice a second, and few of its rows change:
- * a column that is missing here is drawn once and never again. */
+/** The shown values of a row as one text, because most rows of a new table are unchanged. A line is drawn again only if
+ * this text changes: every shown value must be in it. */
 const shownOf = ({ row, wide, pinned }: Props) =>
   [
     row.called,

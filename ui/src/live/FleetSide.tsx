@@ -14,11 +14,11 @@ const LightTab = lazy(() => import('./light/LightTab'));
 
 interface Props {
   liveLight: ReturnType<typeof useLiveLight>;
-  /** Shows the past runs. */
+  /** Opens the dialog of past runs. */
   onPast: () => void;
 }
 
-/** Robots, cues, light, show and log beside the floor. */
+/** The side of the live view: incidents, and tabs with robots, cues, light, show and log. */
 export function FleetSide({ liveLight, onPast }: Props) {
   const { live } = useSession();
   const [wide, setWide] = useState(false);

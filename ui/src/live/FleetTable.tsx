@@ -12,10 +12,10 @@ import { PreflightButton } from './PreflightButton';
 import { RobotDialog } from './RobotDialog';
 import styles from './FleetTable.module.css';
 
-/** Most rows that the table shows; longer tables are not read. */
+/** Most rows that the table shows; the number of further ones is written below it. */
 const ROWS_MAX = 300;
 
-/** Titles; the cells are in FleetLine. */
+/** Title and sort key of the columns that are always shown; FleetLine draws the cells in the same order. */
 const COLUMNS = [
   ['Pixel', 'pixel'],
   ['Robot', 'robot'],
@@ -24,7 +24,7 @@ const COLUMNS = [
 ] as const;
 const MORE_COLUMNS = ['Last seen', 'Firmware', 'Supports', 'Clock'] as const;
 
-/** The fleet: pixel and state of each robot. */
+/** The fleet as a table with a search: pixel, name, state and charge of each robot, and more if `wide`. */
 export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => void }) {
   const { wide } = props;
   const { live, ask } = useSession();
@@ -118,7 +118,7 @@ export function FleetTable(props: { wide: boolean; onWide: (wide: boolean) => vo
   );
 }
 
-/** The title of a column; a press sorts by it, a second one the other way round. */
+/** The title of a column; a press sorts by it, a press on the sorted column turns the order round. */
 function Title(props: {
   title: string;
   by: Order;

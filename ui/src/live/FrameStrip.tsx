@@ -8,7 +8,7 @@ import { Thumbnail } from '../stage/Thumbnail';
 import { isRunning } from '../session/phases';
 import styles from '../parts/strip.module.css';
 
-/** The frames in playing order: choose the first one, see the current one. */
+/** The frames in playing order: choose the one to play from, see the one that plays. */
 export function FrameStrip() {
   const { live, frame } = useSession();
   const show = useStore(live.opened, (o) => o.show);

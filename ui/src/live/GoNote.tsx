@@ -6,13 +6,13 @@ import { useSession } from '../session/session';
 import { repeatsText } from './cueRows';
 import styles from './GoNote.module.css';
 
-/** A frame waits for GO, or frames repeat until then: what it is given for, in large type, above Play. */
+/** While a frame waits for GO, or frames repeat until GO: the name of the cue in large type, and the button GO. */
 export function GoNote() {
   const { live } = useSession();
   const cue = useStore(live.playback, (p) => p.cue);
   const frame = useStore(live.playback, (p) => p.frame);
   const after = useStore(live.playback, (p) => p.next);
-  // A text, not the snapshot, because equal texts are not rendered again twenty times a second.
+  // A text, not the object, because an equal text does not render this again with each message.
   const repeats = useStore(live.playback, (p) => (p.repeats ? repeatsText(p.repeats) : null));
   const leaves = useStore(live.playback, (p) => p.repeats?.leaves ?? false);
   const last = useStore(live.playback, (p) => p.repeats?.last ?? null);
@@ -42,7 +42,7 @@ function nextText(when: string, frames: readonly Frame[] | undefined, index: num
   return `${when}: frame ${index + 1}${frame.name ? `, ${frame.name}` : ''}`;
 }
 
-/** `gives`: with the button that gives GO. */
+/** `gives`: whether the button that gives GO is shown. */
 function Words({ title, gives, children }: { title: string; gives: boolean; children: ReactNode }) {
   const { live, ask } = useSession();
   const isPaused = useStore(live.playback, (p) => p.phase === 'paused');

@@ -4,7 +4,7 @@ import { useSession } from '../session/session';
 import { asksToGoOn } from './actions';
 import { Note } from './Note';
 
-/** A show that was cut off or out of reach waits for the operator: above Play, until it goes on or is over. */
+/** Shown while an interrupted show waits: buttons let it go on or stop it. */
 export function GoOnNote() {
   const { live, ask } = useSession();
   const asks = useStore(live.playback, asksToGoOn);

@@ -9,7 +9,7 @@ import { earlier, unread } from '../session/incidents';
 import styles from './IncidentCards.module.css';
 import { Gate } from '../parts/Gate';
 
-/** What went wrong, above the robots' table, until it is read; what was read folds away. */
+/** Unread incidents as cards, the newest first; those that were read are folded away below. */
 export function IncidentCards() {
   const { live } = useSession();
   const incidents = useStore(live.incidents);

@@ -5,12 +5,12 @@ import { useSession } from '../session/session';
 import { startPlay } from '../session/start';
 import { isPlayed, jumpQuestion } from './cueRows';
 
-/** Asks before robots leave for a frame that the operator chose in the list of cues. */
+/** Asks before robots drive to a frame that the operator wants to go to. */
 export function JumpDialog() {
   const session = useSession();
   const { live, jumpAsked, ask, frame } = session;
   const goal = useStore(jumpAsked);
-  // While the dialog closes it still asks what it asked.
+  // The frame of the question, kept while the dialog closes.
   const [asked, setAsked] = useState(0);
   if (goal !== null && goal !== asked) setAsked(goal);
   const plays = useStore(live.playback, (p) => isPlayed(p.phase));

@@ -15,7 +15,7 @@ import { RobotTwin } from './RobotTwin';
 import { liveScene, wrongIn } from './scene';
 import styles from '../stage/stage.module.css';
 
-/** The floor with the measured positions of the robots. */
+/** The floor of the live view: robots where they were measured, targets and paths if wanted, and view tools. */
 export function LiveStage() {
   const { live, frame, found: search } = useSession();
   const [view] = useState(createView);

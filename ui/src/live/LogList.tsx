@@ -12,9 +12,9 @@ const WORDS = { debug: '', info: '', warn: 'Warning: ', error: 'Error: ' } as co
 const EVERY_MS = 100;
 
 interface Props {
-  /** Whether its tab is in front; the lines are not rendered otherwise. */
+  /** Whether the tab of the log is in front; if not, its lines are not rendered. */
   seen: boolean;
-  /** Shows the past runs. */
+  /** Opens the dialog of past runs. */
   onPast: () => void;
 }
 
@@ -75,7 +75,7 @@ function Lines({ only }: { only: string }) {
   );
 }
 
-/** The robots that a summarising line is about; their names are in the page only while the list is open. */
+/** The robots that a summarising line is about, by short ids; they are in the page only while the list is open. */
 function Names({ line: { robots, count } }: { line: LogLine }) {
   const [open, setOpen] = useState(false);
   const more = count - robots.length;

@@ -8,14 +8,14 @@ import { NumberField } from '../parts/NumberField';
 import { useSession } from '../session/session';
 import { createLiveMusic, musicOffset, OFFSET_MAX_MS } from './liveMusic';
 
-/** Lets the music of the show be heard on this screen, in step with the robots. */
+/** A button that plays the show's music on this screen, in step with the show; nothing for a show without the file. */
 export function MusicButton() {
   const { live } = useSession();
   const hash = useStore(live.opened, (o) => (o.show && musicOf(o.show)?.hash) ?? null);
   const music = useMemo(() => createLiveMusic(live), [live]);
   const isOn = useStore(music.isOn);
   const offset_ms = Number(useStore(musicOffset));
-  // Other music is another press: browsers let sound begin in one only.
+  // Other music needs another press, because browsers let sound begin only in one.
   useEffect(() => music.stop, [music, hash]);
   if (hash === null) return null;
   return (

@@ -5,14 +5,14 @@ import { useSession } from '../session/session';
 import styles from './Note.module.css';
 
 interface Props {
-  /** `bad`: it failed or went wrong; `stopped`: it was wanted. */
+  /** `bad`: something failed; `stopped`: the show was stopped on purpose. */
   tone: 'bad' | 'stopped';
   text: string;
-  /** Buttons that lead on. */
+  /** Buttons for what the user can do next. */
   children: ReactNode;
 }
 
-/** What became of the show, above Play, with the ways on. */
+/** A note about what became of the show, with buttons for what to do next. */
 export function Note({ tone, text, children }: Props) {
   const Icon = tone === 'bad' ? IconAlertTriangle : IconHandStop;
   return (
@@ -29,7 +29,7 @@ export function Note({ tone, text, children }: Props) {
   );
 }
 
-/** Takes the note away on every screen. */
+/** A button that dismisses the last failure or stop on every screen. */
 export function GotIt() {
   const { ask } = useSession();
   return (

@@ -8,12 +8,12 @@ import { useSession } from '../session/session';
 
 interface TakeProps {
   robots: ReturnType<typeof placedRobots>;
-  /** Number of robots that the show needs. */
+  /** Number of starting places of the show; `Infinity` while it is not known. */
   places: number;
   onClose: () => void;
 }
 
-/** Makes the places where robots stand the starting places of the show. */
+/** A button that makes the places where robots stand the starting places of the show, once all places are known. */
 export function TakeLayout({ robots: [placed, unknown], places, onClose }: TakeProps) {
   const session = useSession();
   const readOnly = useStore(session.live.opened, (o) => o.readOnly);
@@ -35,7 +35,7 @@ export function TakeLayout({ robots: [placed, unknown], places, onClose }: TakeP
   );
 }
 
-/** Drives robots to the starting places. */
+/** A button that drives robots to the starting places; `isNeeded`: whether a robot stands elsewhere. */
 export function DriveHome({ isNeeded, onClose }: { isNeeded: boolean; onClose: () => void }) {
   const session = useSession();
   const isReady = useStore(session.live.playback, (p) => p.phase === 'ready');

@@ -2,7 +2,7 @@ import { Button } from '@mantine/core';
 import { useState } from 'react';
 import { PlacesDialog } from './PlacesDialog';
 
-/** Opens the comparison of robots' places with the starting places. */
+/** A button that opens the comparison of robots' places with the starting places. */
 export function PlacesButton() {
   const [opened, setOpened] = useState(false);
   return (

@@ -16,7 +16,7 @@ import styles from './Preflight.module.css';
 
 /** Time between two looks at where robots stand, milliseconds. */
 const EVERY_MS = 500;
-/** Most robots that are listed: the map shows them all. */
+/** Most robots elsewhere, and most of unknown place, that are listed. */
 const LISTED_MAX = 50;
 
 /** Compares where robots stand with where the show expects them, and offers what to do about it. */
@@ -68,7 +68,7 @@ function Places({ onClose }: { onClose: () => void }) {
   );
 }
 
-/** Where robots stand, looked at again and again. */
+/** Where robots stand, as `placedRobots` gives it, read anew every `EVERY_MS`. */
 function usePlaced() {
   const { live } = useSession();
   const [robots, setRobots] = useState<ReturnType<typeof placedRobots>>([[], []]);

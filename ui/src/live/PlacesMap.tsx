@@ -2,7 +2,7 @@ import type { Stage } from '../model/show';
 import type { Comparison } from '../session/places';
 import styles from './PlacesMap.module.css';
 
-/** The floor with its starting places as rings, robots in them, and those elsewhere with the way to the nearest place. */
+/** The floor with free starting places as rings, robots in theirs, and robots elsewhere with a line to their goal. */
 export function PlacesMap({ stage, found }: { stage: Stage; found: Comparison }) {
   const { width_m, depth_m, radius_m } = stage;
   const { inPlace, away, free } = found;

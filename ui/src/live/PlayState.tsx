@@ -5,12 +5,12 @@ import { useSession } from '../session/session';
 import { phaseText } from './actions';
 import styles from './PlayState.module.css';
 
-/** Frame x of y, the robots that all wait for, time left. */
+/** The state of the show in words, robots that are late, slow speeds, and the time left. */
 export function PlayState() {
   const { live, frame, waiting } = useSession();
   const isWaiting = useStore(waiting, (pending) => pending !== null);
   const from = useStore(frame);
-  // Texts, not the snapshot, because equal texts are not rendered again twenty times a second.
+  // Texts, not the object, because an equal text does not render this again with each message.
   const phase = useStore(live.playback, (p) => p.phase);
   const text = useStore(live.playback, phaseText);
   const failed = useStore(live.playback, (p) => p.phase === 'ready' && p.failure !== null);

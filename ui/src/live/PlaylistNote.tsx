@@ -6,7 +6,7 @@ import { nextText, useCountdown, usePlaylist } from '../session/playlist';
 import { useSession } from '../session/session';
 import styles from './Note.module.css';
 
-/** Robots start by themselves: what is next and when, or what holds it, above Play, as long as the playlist is on. */
+/** Shown while the playlist is on, which starts shows by itself: what is next and when, or what holds the playlist. */
 export function PlaylistNote() {
   const { ask } = useSession();
   const [seen] = usePlaylist();

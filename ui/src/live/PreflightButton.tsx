@@ -5,7 +5,7 @@ import { useWhyNot } from '../parts/Gate';
 import { useSession } from '../session/session';
 import { PreflightDialog } from './PreflightDialog';
 
-/** Opens the preflight: what it does, its progress, and what it found. */
+/** A button that opens the preflight; coloured if the last one found robots with faults. */
 export function PreflightButton() {
   const { live } = useSession();
   const [opened, setOpened] = useState(false);

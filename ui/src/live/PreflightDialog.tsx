@@ -7,7 +7,7 @@ import * as words from '../session/robotWords';
 import { useSession } from '../session/session';
 import styles from './Preflight.module.css';
 
-/** Asks before robots are tested, shows how far that is, and then which of them have faults. */
+/** Explains the test of robots and starts it, shows what they do, and then which robots have faults. */
 export function PreflightDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
   const { live, ask } = useSession();
   const state = useStore(live.playback, (p) => p.preflight);

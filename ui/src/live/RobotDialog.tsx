@@ -9,7 +9,7 @@ import * as words from '../session/robotWords';
 import styles from './facts.module.css';
 import { Gate } from '../parts/Gate';
 
-/** Details of one robot, and its actions. */
+/** Details of one robot, and its actions; closed without a `row`. */
 export function RobotDialog({ row, onClose }: { row: FleetRow | null; onClose: () => void }) {
   return (
     <Modal opened={row !== null} onClose={onClose} title={row ? `Robot ${words.nameOf(row)}` : ''}>
@@ -94,7 +94,7 @@ function NameField({ row }: { row: FleetRow }) {
   );
 }
 
-/** Where only listed robots take part: whether this one is listed. */
+/** A switch for whether this robot is listed; nothing unless only listed robots take part. */
 function ListedSwitch({ row }: { row: FleetRow }) {
   const { ask, live } = useSession();
   if (!useStore(live.fleet, (fleet) => fleet.only_listed)) return null;
@@ -109,7 +109,7 @@ function ListedSwitch({ row }: { row: FleetRow }) {
   );
 }
 
-/** The pixel that is pinned to this robot; saved in the show. */
+/** Chooses the pixel that is pinned to this robot, in all frames of the show; nothing without pixels. */
 function PinChoice({ row }: { row: FleetRow }) {
   const session = useSession();
   const show = useStore(session.live.opened, (o) => o.show);

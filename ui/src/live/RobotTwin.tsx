@@ -4,7 +4,7 @@ import { colourName } from '../base/colour';
 import { useSession } from '../session/session';
 import { presenceText } from '../session/robotWords';
 
-/** Most robots in the list, because ten thousand do not help a screen reader. */
+/** Most robots in the list, because thousands do not help a screen reader. */
 const LISTED_MAX = 200;
 
 interface Line {
@@ -13,7 +13,7 @@ interface Line {
   status: string;
 }
 
-/** The robots on the floor as a list, for screen readers and tests. Updated once a second. */
+/** The first robots of the fleet as a hidden list, for screen readers and tests. Updated once a second. */
 export function RobotTwin() {
   const { live } = useSession();
   const [lines, setLines] = useState<Line[]>([]);

@@ -1,6 +1,6 @@
 import { useWhyNot } from '../parts/Gate';
 
-/** Says in the bar of Play why its buttons do nothing for this person, and what the person can do. */
+/** Says why the buttons beside it do nothing for this person, and what the person can do; nothing for an operator. */
 export function RoleNote() {
   const reason = useWhyNot('operator', 'press Play');
   if (reason === null) return null;

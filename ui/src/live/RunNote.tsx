@@ -7,12 +7,12 @@ import { useSession } from '../session/session';
 import { useRuns } from './useRuns';
 import styles from './Note.module.css';
 
-/** A show has ended: its report, above Play, until it is dismissed on this screen or the next show begins. */
+/** After a show has ended, offers its report, until that is dismissed on this screen or another show begins. */
 export function RunNote({ onPast }: { onPast: () => void }) {
   const { live } = useSession();
   const runs = useRuns();
   const dismissed = useStore(dismissedRun);
-  // The notes of a failed or stopped show say how it ended.
+  // After a failure or a stop, another note already says how the show ended.
   const isTold = useStore(live.playback, (p) => p.failure !== null || p.stopped_in !== null);
   const run = offeredRun(runs, dismissed);
   if (run === null) return null;

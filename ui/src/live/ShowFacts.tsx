@@ -69,7 +69,7 @@ function PlanFacts({ plan }: { plan: Plan }) {
   );
 }
 
-/** Share of moments at which any robot may stop dead, and the frames whose transitions have unsafe moments. */
+/** Share of moments at which any one robot may stop dead, and the frame with the least share on the drive to it. */
 function stopSafeText(plan: Plan): string {
   if (!plan.ok || plan.transitions.length === 0) return '–';
   if (plan.stop_safe >= 1) return 'any one robot may stop dead at any moment';
@@ -79,7 +79,7 @@ function stopSafeText(plan: Plan): string {
   return `at ${percentText(plan.stop_safe)} of all moments; least on the way to frame ${least.to + 1}: ${percentText(least.stop_safe)}`;
 }
 
-/** Rounded down, so that 100 % means all. */
+/** A share, 0 to 1, as percent, rounded down to a tenth, so that 100 % means all. */
 function percentText(share: number): string {
   return `${(Math.floor(share * 1000) / 10).toFixed(1)} %`;
 }

@@ -9,7 +9,7 @@ const SPEEDS = [30, 50, 100];
 /** Percent of the usual speed that is offered for a first run. */
 const FIRST_RUN = 50;
 
-/** Offers a slow first run of a show that these robots have never played to its end. */
+/** Offers a slow first run if the server says that these robots have not played this show yet. */
 function FirstRun() {
   const { live, ask } = useSession();
   const isOffered = useStore(
@@ -33,7 +33,7 @@ function FirstRun() {
   );
 }
 
-/** The speed of drives, from the next start on. */
+/** The speed of drives, percent; it can be changed only while the show is ready to play. */
 export function SpeedField() {
   const { live, ask } = useSession();
   const percent = useStore(live.playback, (p) => p.speed_percent);

@@ -22,7 +22,7 @@ const MARKS = {
   bad: [IconCircleX, 'Missing'],
 } as const;
 
-/** The checklist before a start, kept up to date, with a button that starts the show without the missing robots. */
+/** The checklist before a start, kept up to date, with buttons to fit the show, look for robots, and start. */
 export function StartDialog() {
   const session = useSession();
   const opened = useStore(session.checking);
@@ -38,7 +38,7 @@ export function StartDialog() {
 function Checklist({ close }: { close: () => void }) {
   const session = useSession();
   const { live } = session;
-  // The fleet table arrives at least twice a second and keeps the list up to date.
+  // The fleet table arrives often and keeps the list up to date.
   const rows = useStore(live.fleet, (fleet) => fleet.rows);
   useStore(live.plan);
   const { show, readOnly } = useStore(live.opened);

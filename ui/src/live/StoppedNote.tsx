@@ -5,7 +5,7 @@ import { startPlay } from '../session/start';
 import { useSession } from '../session/session';
 import { GotIt, Note } from './Note';
 
-/** A show was stopped: where, and the ways on, above Play, until the operator dismisses it or starts again. */
+/** After a show was stopped without a failure: in which frame, with buttons to play on, drive home, or dismiss it. */
 export function StoppedNote() {
   const session = useSession();
   const { live } = session;
@@ -28,7 +28,7 @@ export function StoppedNote() {
   );
 }
 
-/** Plays the show from the frame in which it was stopped, by the usual checks. */
+/** A button that plays the show from frame `from`, counted from 0, after the usual checks. */
 export function PlayOn({ from }: { from: number }) {
   const session = useSession();
   const isReady = useStore(session.live.playback, (p) => p.phase === 'ready');

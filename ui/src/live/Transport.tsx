@@ -35,7 +35,7 @@ const ICONS = {
 
 const LABELS = { play: 'Play', pause: 'Pause', resume: 'Resume', go_on: 'Go on' };
 
-/** The buttons that start, pause and stop robots; the server's state enables them. */
+/** The bar with the buttons that start, pause and stop robots, enabled by the server's state, and the show's state. */
 export function Transport() {
   const session = useSession();
   const { live, ask, frame } = session;

@@ -52,11 +52,11 @@ export function actionsOf(
   return { main, enabled };
 }
 
-/** Whether GO does something: a frame waits for it, or frames repeat until then. */
+/** Whether GO does something: a frame waits for it, or frames repeat until GO and it was not given yet. */
 export const takesGo = ({ cue, repeats }: Pick<Playback, 'cue' | 'repeats'>): boolean =>
   cue !== null || (repeats !== null && !repeats.leaves);
 
-/** Phases with a run. */
+/** Phases in which a run can be aborted. */
 const RUNNING: ReadonlySet<Phase> = new Set<Phase>([
   'preparing',
   'playing',
@@ -65,12 +65,12 @@ const RUNNING: ReadonlySet<Phase> = new Set<Phase>([
   'link_lost',
 ]);
 
-/** Whether a show that was interrupted waits only for the operator. */
+/** Whether an interrupted show waits for nothing but the operator. */
 export function asksToGoOn({ phase, doing }: Pick<Playback, 'phase' | 'doing'>): boolean {
   return phase === 'link_lost' && doing === 'waiting for you to go on';
 }
 
-/** What a run does while the clocks of its robots are not precise. */
+/** What the server says of a run that waits for robots to set their clocks. */
 const CLOCKS = 'waiting for robots to set their clocks';
 
 /** The state of the show in a few words. */

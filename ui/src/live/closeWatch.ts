@@ -6,9 +6,9 @@ import { FLOOR } from '../stage/palette';
 /** Period of the search, milliseconds, because it takes long with thousands of robots. */
 const EVERY_MS = 200;
 
-/** Finds robots whose rims touch in the picture. */
+/** Finds places, stage metres, that are closer to another one than a gap. */
 export interface CloseWatch {
-  /** Indices of the places closer than `gap_m` to another place; computed a few times a second. */
+  /** Indices of the places closer than `gap_m` to another; up to `EVERY_MS` old while their number stays the same. */
   find(places: readonly Point[], gap_m: number, now_ms: number): readonly number[];
 }
 
@@ -28,7 +28,7 @@ export function createCloseWatch(): CloseWatch {
   };
 }
 
-/** Draws dashed rings around positions, as the editor does. */
+/** Draws dashed rings around positions, stage metres; `radius_m`: of a robot. */
 export function paintClose(
   c: CanvasRenderingContext2D,
   camera: Camera,

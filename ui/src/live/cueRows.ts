@@ -9,18 +9,18 @@ export interface CueRow {
   index: number;
   name: string;
   air_s: number;
-  /** Name of the cue at which it waits for GO; may be empty. Null: it goes on by itself. */
+  /** Name of the cue at the end of the frame; may be empty. Null: the show goes on by itself. */
   cue: string | null;
-  /** Index of the frame from which the show repeats until GO; null: it does not. */
+  /** Index of the frame from which the show repeats until GO; null: it does not repeat. */
   from: number | null;
-  /** What the frame is in the show that plays. */
+  /** Whether the frame plays now or is next; null: neither. */
   place: 'now' | 'next' | null;
 }
 
 /** What is read of the playback. */
 export type CuePlayback = Pick<Playback, 'phase' | 'frame' | 'next'>;
 
-/** Whether a show is played, so that a jump goes on with it; otherwise the show is played from a frame. */
+/** Whether a show is being played, even if it is paused or its robots are out of reach. */
 export const isPlayed = (phase: Playback['phase']) =>
   phase === 'preparing' || phase === 'playing' || phase === 'paused' || phase === 'link_lost';
 
@@ -60,7 +60,7 @@ export function repeatsText({ first, last, round, leaves }: Repeats): string {
   return `GO was given: on after frame ${last + 1} (round ${round})`;
 }
 
-/** `3 Heart`, `3`; a dash where there is no frame. */
+/** A frame by number and name, `3 Heart`, or `Frame 3` without a name; a dash where there is no frame. */
 export function frameText(frames: readonly Frame[], index: number | null): string {
   const frame = index === null ? undefined : frames[index];
   if (index === null || !frame) return '–';
@@ -78,7 +78,7 @@ export function whyNoJump(
   return phase === 'ready' ? null : 'Robots are not ready yet.';
 }
 
-/** The question before robots leave for a frame. */
+/** The question before robots drive to a frame; `index` counts from 0. */
 export function jumpQuestion(frames: readonly Frame[], index: number, plays: boolean): string {
   const name = frames[index]?.name;
   const frame = `frame ${index + 1}${name ? `, ${name}` : ''}`;

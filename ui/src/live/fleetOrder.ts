@@ -8,11 +8,11 @@ export interface Arrangement {
   by: Order;
   /** From the largest to the smallest. */
   down: boolean;
-  /** Part of a name; empty: all robots. */
+  /** Part of a robot's name or id, in any case of letters; empty: all robots. */
   search: string;
 }
 
-/** Robots in trouble first: silent ones, and those that cannot drive. */
+/** Statuses, the worst first. Presence counts before status. */
 const WORST_FIRST = ['faulty', 'lost', 'cut', 'held', 'driving', 'ready', 'idle'] as const;
 const PRESENCES = ['gone', 'stale', 'active'] as const;
 
@@ -21,7 +21,7 @@ const trouble = (row: FleetRow) =>
 
 const names = new Intl.Collator('en', { numeric: true });
 
-/** Spare robots and unknown charges come last in either direction. */
+/** Comparisons by column; `sign` is -1 for down. Robots without a pixel or a known charge come last either way. */
 const ORDERS: Record<Order, (a: FleetRow, b: FleetRow, sign: number) => number> = {
   pixel: (a, b, sign) => unknownLast(a.pixel, b.pixel, sign),
   robot: (a, b, sign) => sign * names.compare(nameOf(a), nameOf(b)),
@@ -34,7 +34,7 @@ function unknownLast(a: number | null, b: number | null, sign: number): number {
   return sign * (a - b);
 }
 
-/** The robots that a search finds, in order; equal ones by their names. */
+/** The robots that a search finds, in order; equal ones by name, upwards. */
 export function arranged(rows: readonly FleetRow[], { by, down, search }: Arrangement): FleetRow[] {
   const sought = search.trim().toLowerCase();
   const fits = (row: FleetRow) =>

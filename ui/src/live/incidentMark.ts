@@ -3,10 +3,10 @@ import { FLOOR } from '../stage/palette';
 import type { Callout } from '../session/incidents';
 
 const FONT = '600 13px Inter, system-ui, sans-serif';
-/** Padding of a label, its distance from the ring, and its height, CSS pixels. */
+/** Padding of a label at its left and right, its distance from the ring, and its height, CSS pixels. */
 const [PAD_PX, OFF_PX, HIGH_PX] = [7, 8, 22];
 
-/** Draws a ring and a label at each robot of an incident: right of it, or left near the canvas's right edge. */
+/** Draws a ring around each callout, and a label at its right, or at its left near the canvas's right edge. */
 export function paintCallouts(
   c: CanvasRenderingContext2D,
   camera: Camera,

@@ -9,23 +9,23 @@ import { createChoice } from '../session/preferences';
 
 /** The music of the running show, heard on this screen. */
 export interface LiveMusic {
-  /** Whether this screen is to be heard. */
+  /** Whether the sound of this screen is switched on. */
   isOn: Readable<boolean>;
   /** Switches the sound on or off; to be called in a press of the user. */
   toggle(): void;
   stop(): void;
 }
 
-/** How often sound is compared with the show, milliseconds. Pages that are hidden are asked less often, and drift slowly. */
+/** Period at which sound is compared with the show, milliseconds. Browsers make it longer in hidden pages. */
 const STEP_MS = 50;
 
-/** Most that sound is moved by ear, milliseconds: loudspeakers by radio are late by less. */
+/** Greatest offset that the user can set, earlier or later, milliseconds. */
 export const OFFSET_MAX_MS = 500;
 
 const isOffset = (text: string | null): text is string =>
   text !== null && Math.abs(Number(text)) <= OFFSET_MAX_MS;
 
-/** How much earlier the music is played than it should be heard, milliseconds, as a text. */
+/** How much earlier the music is played than the show has it, milliseconds, as text; negative: later. */
 export const musicOffset = createChoice<string>('lightbots-music-offset', '0', isOffset);
 
 export function createLiveMusic(live: Live): LiveMusic {

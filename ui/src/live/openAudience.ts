@@ -1,7 +1,7 @@
 import { addressOfView } from '../session/address';
 import { notify } from '../session/notices';
 
-/** Opens the audience view in a window of its own, which can be moved to a projector; or brings it to the front. */
+/** Opens the audience view in its own window, or brings that window to the front; a notice says if it cannot. */
 export function openAudience() {
   const address = location.pathname + addressOfView('audience');
   const opened = window.open(address, 'lightbots-audience', 'popup,width=1280,height=720');

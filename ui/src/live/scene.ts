@@ -13,7 +13,7 @@ import { isRunning } from '../session/phases';
 const ALPHAS = { active: 1, stale: 0.4, gone: 0.15 } as const;
 const fades = new WeakMap<Fleet, (robot: number) => number>();
 
-/** Opacity of each robot: silent robots are faded. */
+/** Opacity, 0 to 1, by index in the fleet table: silent robots are faded. The same function for the same table. */
 export function fade(fleet: Fleet): (robot: number) => number {
   let faded = fades.get(fleet);
   if (!faded) {
@@ -27,16 +27,16 @@ export function fade(fleet: Fleet): (robot: number) => number {
 const NOTHING: readonly never[] = [];
 export interface LiveSceneInputs {
   show: Show | null;
-  /** The frame chosen in the strip. */
+  /** Index of the frame chosen in the strip. */
   chosen: number;
   targets: boolean;
   paths: Scene['paths'];
-  /** Ids of the chosen frame's pixels in errors of the plan. */
+  /** Ids of the chosen frame's pixels that errors of the plan name. */
   wrong: ReadonlySet<number>;
   close: CloseWatch;
 }
 
-/** Ids of the pixels of a frame in errors of the plan: too close, in a no-go area, or out of reach. */
+/** Ids of the pixels that the plan's errors about a frame name; empty without a plan. */
 export const wrongIn = (plan: Plan | null, frame: number): ReadonlySet<number> =>
   new Set(
     plan?.issues
@@ -44,7 +44,7 @@ export const wrongIn = (plan: Plan | null, frame: number): ReadonlySet<number> =
       .flatMap((issue) => issue.pixels),
   );
 
-/** The scene of the live stage. */
+/** The scene of the live stage: targets are those of the run while one is on, else the pixels of the chosen frame. */
 export function liveScene(live: Live, inputs: LiveSceneInputs, now_ms: number): Scene {
   const sample = live.track.sample(now_ms, fade(live.fleet.get()));
   const running = isRunning(live.playback.get().phase);

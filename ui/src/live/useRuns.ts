@@ -4,11 +4,12 @@ import type { RunEntry } from '../api/types.gen';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 
-/** The server writes the end of a run to the disk beside the show: the list is asked again this often and this long. */
+/** Time until the list is asked for again while its first run has no end yet, milliseconds. */
 const AGAIN_MS = 400;
+/** Most times that the list is asked for again: the server may write the end of a run a little later. */
 const AGAIN_MAX = 25;
 
-/** The recorded runs while there is no run; asked for anew after each. */
+/** The recorded runs, asked for whenever the phase becomes `ready`; empty in other phases, and if that fails. */
 export function useRuns(): readonly RunEntry[] {
   const { live } = useSession();
   const isReady = useStore(live.playback, (p) => p.phase === 'ready');

@@ -3,7 +3,7 @@ import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 import type { Action } from './actions';
 
-/** The keys of the live view. */
+/** The keys of the live view for playing and for choosing frames. `main`: what Space does. */
 export function useTransportKeys(perform: (action: Action) => void, main: Action) {
   const { live, frame, checking } = useSession();
   const last = useStore(live.opened, (o) => (o.show?.frames.length ?? 1) - 1);

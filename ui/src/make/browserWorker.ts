@@ -1,5 +1,5 @@
 import type { MakeWorker } from './maker';
 
-/** A worker with the module, which the browser loads only now. */
+/** Starts a worker that makes frames. Only now does the browser load its script. */
 export const startWorker = (): MakeWorker =>
   new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'make' });

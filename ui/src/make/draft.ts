@@ -5,27 +5,27 @@ import { drawnKind } from './drawnLine';
 import { list, pair } from '../model/jsonFields';
 import type { FrameSource, SourceKind } from '../model/sources';
 
-/** What the Make panel shows: the settings of every kind of source, of which one kind is chosen. */
+/** The settings of the Make panel. Only those of the chosen tab make something, and those that all tabs share. */
 export interface Draft {
   tab: Tab;
   text: string;
   font: string;
   shape: string;
-  /** Settings of shapes that are not the usual ones. */
+  /** Numbers of the shape that differ from its usual ones. */
   shapeNumbers: Readonly<Partial<Record<ShapeNumber, number>>>;
   /** Points of a line that is drawn on the floor, in units of their own; empty: none yet. */
   points: readonly Point[];
-  /** Whether the last point of such a line is joined to the first. */
+  /** Whether the last of `points` is joined to the first. */
   closed: boolean;
-  /** A font of one's own for words; null: `font`. */
+  /** A font file of the user for words; null: `font` is used. */
   ownFont: DraftFont | null;
-  /** The files of the frames: one, or several of which each makes a frame. */
+  /** The files that frames are made from, one frame each; an animation makes several. */
   files: readonly DraftFile[];
   /** The moment of the animation that a single frame shows, seconds; null: the whole animation becomes frames. */
   moment_s: number | null;
   /** What of a picture or animation is shown. */
   way: PictureWay;
-  /** Whether the background is shown instead, or the dark instead of the light. */
+  /** Whether a picture shows its background instead; with way `tones`: its dark instead of its light. */
   inverted: boolean;
   color: Rgb;
   style: Style;
@@ -36,7 +36,7 @@ export interface Draft {
   /** Radians counter-clockwise. */
   turn: number;
   seed: number;
-  /** Settings that the panel does not show; they stay. */
+  /** Settings of the source that the panel does not show; they are kept. */
   kept: Readonly<Record<string, unknown>>;
 }
 
@@ -69,15 +69,15 @@ export type FileSource = Extract<SourceKind, 'svg' | 'picture' | 'list' | 'anima
 
 export const FILE_SOURCES: readonly FileSource[] = ['svg', 'picture', 'list', 'animation'];
 
-/** Whether an animation becomes frames that are not known before it is read. */
+/** Whether the draft makes frames of a whole animation, a number of them that is known only after reading it. */
 export const isFilm = (draft: Draft) =>
   draft.tab === 'file' && draft.files[0]?.kind === 'animation' && draft.moment_s === null;
 
-/** Whether a file is seen as a whole, so that what it shows must be found in it. */
+/** Whether a file is a picture or an animation, so that shapes must be found in its pixels. */
 export const isSeen = (file: DraftFile | null) =>
   file?.kind === 'picture' || file?.kind === 'animation';
 
-/** The colour of a warm lamp, as the module takes it where a source names none. */
+/** The colour that the module uses where a source names none. */
 export const USUAL_COLOR: Rgb = 0xffa500;
 
 export const newDraft = (tab: Tab): Draft => ({
@@ -122,7 +122,7 @@ const NUMBERS: readonly ShapeNumber[] = ['aspect', 'count', 'turns', 'inner', 's
 const tabOf = (kind: SourceKind): Tab =>
   kind === 'text' ? 'text' : kind === 'shape' ? 'shape' : 'file';
 
-/** The draft that a source is. `fileName`: the name of its file for people. */
+/** The settings with which the panel shows a source. `fileName`: the name of its file for people. */
 export function draftOf(source: FrameSource, fileName = 'File'): Draft {
   const { settings } = source;
   const text = (name: string, usual: string) =>
@@ -182,7 +182,7 @@ const colorOf = (value: unknown): Rgb | undefined => {
   return typeof first === 'string' ? fromHex(first) : undefined;
 };
 
-/** The sources that a draft is, one for each frame; none: something is missing, such as the text. */
+/** The sources that a draft describes, one for each file, else one; empty: something is missing, such as the text. */
 export function sourcesOf(draft: Draft): FrameSource[] {
   if (draft.tab === 'file') {
     const series = draft.files.length > 1 ? (draft.files[0]?.name ?? null) : null;
@@ -190,7 +190,7 @@ export function sourcesOf(draft: Draft): FrameSource[] {
   }
   if (draft.tab === 'text' && draft.text.trim() === '') return [];
   const isDrawn = drawnKind(draft) !== null;
-  // A line without points goes from left to right; the others have none.
+  // A straight line may be without points: the module draws one. The other kinds need two points.
   const isBegun = draft.points.length >= 2 || (draft.shape === 'line' && draft.points.length === 0);
   return isDrawn && !isBegun ? [] : [sourceOf(draft, null)];
 }
@@ -233,7 +233,7 @@ function sourceOf(draft: Draft, file: DraftFile | null): FrameSource {
   };
 }
 
-/** Metres to a tenth of a millimetre, as places of pixels are. */
+/** Metres rounded to a tenth of a millimetre. */
 const mm = (metres: number) => Math.round(metres * 1e4) / 1e4 + 0;
 
 /** A source in a few words, for people. */
@@ -244,13 +244,13 @@ export function sourceWords(source: FrameSource, fileName: string | null): strin
   return fileName === null ? 'a file' : `the file ${fileName}`;
 }
 
-/** A file's name without its ending. */
+/** A file's name without its last ending; the whole name if it is only an ending. */
 export const stem = (file: string) => file.replace(/\.[^.]*$/, '') || file;
 
 /** Longest name of a frame, characters. */
 const NAME_MAX = 80;
 
-/** A name for a frame that is made of a source; empty: there is none. */
+/** A name for a frame that is made of a source, at most `NAME_MAX` characters; may be empty. */
 export function sourceTitle(source: FrameSource, fileName: string | null): string {
   const { text, shape } = source.settings;
   if (source.kind === 'text')

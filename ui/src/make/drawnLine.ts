@@ -1,16 +1,16 @@
 import { type Point, boxOf, centreOf, rotate } from '../base/geometry';
 
-/** Lines that are drawn on the floor point by point. Their points are kept in units of their own, as a file has them. */
+/** Shapes that are drawn on the floor. A draft keeps their points in units of their own, scaled to `size_m`. */
 export const DRAWN = ['line', 'polyline', 'curve', 'freehand'] as const;
 export type DrawnKind = (typeof DRAWN)[number];
 
 export const drawnKind = ({ tab, shape }: { tab: string; shape: string }): DrawnKind | null =>
   tab === 'shape' ? (DRAWN.find((kind) => kind === shape) ?? null) : null;
 
-/** Most points of a line: more cannot be told apart on a floor. */
+/** Most points of a drawn line. */
 export const POINTS_MAX = 200;
 
-/** Points nearer to each other than this are one, metres. */
+/** Least distance between two points that the pen sets, and within which a press takes a point, metres. */
 export const APART_M = 0.01;
 
 /** Room between a drawn point and the edge of the floor besides the robot's radius, metres, as the module keeps it. */
@@ -30,7 +30,7 @@ interface Line {
   turn: number;
 }
 
-/** The points of a line where its picture has them, stage metres. `made_m`: longer side that was chosen for it. */
+/** The points of a line on the stage, metres. `made_m`: longer side of the made picture, used if the line has none. */
 export function pointsOnStage(line: Line, made_m: number | null): Point[] {
   const box = boxOf(line.points);
   const side = Math.max(box.maxX - box.minX, box.maxY - box.minY);
@@ -46,7 +46,7 @@ export function pointsOnStage(line: Line, made_m: number | null): Point[] {
   );
 }
 
-/** The line through points on the stage, metres: it is drawn where they are. */
+/** The line through points on the stage, metres, each moved onto the floor if it is outside or too near the edge. */
 export function lineThrough(points: readonly Point[], floor: PenFloor): Line {
   const kept = points.map((p) => onFloor(p, floor));
   const box = boxOf(kept);
@@ -62,13 +62,13 @@ function onFloor(p: Point, { width_m, depth_m, radius_m }: PenFloor): Point {
   return { x: within(p.x, width_m), y: within(p.y, depth_m) };
 }
 
-/** Metres to a tenth of a millimetre. */
+/** Metres rounded to a tenth of a millimetre. */
 const tidy = (metres: number) => Math.round(metres * 1e4) / 1e4 + 0;
 
 export const withPoint = (points: readonly Point[], index: number, at: Point): Point[] =>
   points.map((p, i) => (i === index ? at : p));
 
-/** The points with one more before `index`. */
+/** The points with one more at `index`; unchanged if there are `POINTS_MAX`. */
 export const insertPoint = (points: readonly Point[], index: number, at: Point): Point[] =>
   points.length >= POINTS_MAX
     ? [...points]
@@ -77,7 +77,7 @@ export const insertPoint = (points: readonly Point[], index: number, at: Point):
 export const removePoint = (points: readonly Point[], index: number): Point[] =>
   points.filter((_, i) => i !== index);
 
-/** Where a point can be added between two neighbours: in the middle of each piece; `index`: what it would become. */
+/** The middle of each piece between neighbouring points, where a point can be added; `index`: the new point's. */
 export function middles(points: readonly Point[], closed: boolean): { index: number; at: Point }[] {
   const count = points.length;
   const pieces = count < 2 ? 0 : closed && count > 2 ? count : count - 1;
@@ -87,12 +87,12 @@ export function middles(points: readonly Point[], closed: boolean): { index: num
   });
 }
 
-/** A hand trembles by this, metres. */
+/** How much a hand trembles, metres: smaller bends of a stroke are smoothed away. */
 const TREMBLE_M = 0.008;
 
 /**
- * The points of a stroke that are needed to draw it again, so that they can be dragged (Ramer 1972, Douglas and Peucker
- * 1973).
+ * The points of a stroke with which a line stays within `tolerance_m` metres of it (Ramer 1972, Douglas and Peucker
+ * 1973). The tolerance doubles until there are at most `POINTS_MAX`.
  */
 export function simplified(stroke: readonly Point[], tolerance_m = TREMBLE_M): Point[] {
   const kept = new Set([0, stroke.length - 1]);
@@ -107,7 +107,7 @@ export function simplified(stroke: readonly Point[], tolerance_m = TREMBLE_M): P
   return points.length > POINTS_MAX ? simplified(stroke, tolerance_m * 2) : points;
 }
 
-/** The point between two others of a stroke that is farthest from the straight line through them. */
+/** The point between two points of a stroke that is farthest from the straight piece between these two. */
 function farthest(stroke: readonly Point[], [from, to]: [number, number]) {
   const [a, b] = [stroke[from] as Point, stroke[to] as Point];
   let [index, distance_m] = [from, 0];

@@ -6,7 +6,7 @@ import { drivesText, planTo } from './drive';
 import { createMaking } from './making';
 import { realMaker } from './realMaker.testing';
 
-/** A show of dots in a row, `counts[k]` of them in frame `k`. */
+/** A show with `counts[k]` pixels in rows in frame `k`. */
 function dots(counts: readonly number[]): Show {
   const show = newShow('x', counts[0] ?? 0);
   const pixels = (count: number): Pixel[] => (newShow('x', count).frames[0]?.pixels ?? []).slice();

@@ -14,8 +14,8 @@ export interface Drives {
 }
 
 /**
- * Plans the drives to pictures that would take the place of a frame; null: a newer wish came, it failed, or the frame before
- * has another number of robots, with which the show cannot be played anyway.
+ * Plans the drives to pictures that would take the place of a frame. Null: a newer request replaced this one, planning
+ * failed, or the frame before has another number of pixels.
  */
 export async function planDrives(
   maker: Maker,
@@ -30,7 +30,7 @@ export async function planDrives(
   return answer?.plan ? { plan: answer.plan, first: before ? 1 : 0 } : null;
 }
 
-/** A plan in which only the drive to one of the pictures is left, as the drive to a frame of the show. */
+/** The plan with only the drive to picture `nth`, given as the drive to frame `frame`, both counted from 0. */
 export const planTo = ({ plan, first }: Drives, nth: number, frame: number): Plan => ({
   ...plan,
   transitions: plan.transitions
@@ -52,7 +52,7 @@ function leastAndMost(numbers: readonly number[]): [number?, number?] {
   return numbers.length === 0 ? [] : [Math.min(...numbers), Math.max(...numbers)];
 }
 
-/** The robots begin on the pixels of the frame before, or at the starting places of the show. */
+/** A request for the drives to the made frames, from the frame before them; without one, from the show's starts. */
 function requestOf(show: Show, before: Frame | undefined, made: readonly Frame[]): PlanningRequest {
   const frames = [...(before ? [before] : []), ...made].map(bare);
   const rest = before
@@ -61,7 +61,7 @@ function requestOf(show: Show, before: Frame | undefined, made: readonly Frame[]
   return { show: writeShow({ ...show, music: null, frames, rest }), quality: 'quick' };
 }
 
-/** A frame as the planner needs it. */
+/** A frame without id, absolute time, motion and sources, as the planner needs it. */
 export const bare = (frame: Frame): Frame => ({
   ...frame,
   id: null,

@@ -4,7 +4,7 @@ import { writeShow } from '../model/json';
 import type { Frame, Pixel, Show } from '../model/show';
 import type { FrameSource } from '../model/sources';
 
-/** The wish for a frame from a source; pixels of `moved` keep their places. */
+/** A request to make a frame's pixels from a source; pixels in the source's `moved` keep their places. */
 export const requestOf = (
   show: Show,
   frame: Frame,
@@ -25,17 +25,17 @@ export const requestOf = (
   quality,
 });
 
-/** The frame alone; pixels that are placed anew are only needed for their pins. */
+/** The frame with this source alone, without what making does not need. */
 const withSource = (frame: Frame, source: FrameSource): Frame => ({
   ...frame,
   id: null,
   at_s: null,
   rest: {},
-  // The file goes beside the request.
+  // The file's bytes are passed beside the request.
   sources: [{ ...source, asset: null }],
 });
 
-/** The pixels of an answer. */
+/** The pixels of an answer, as a frame has them. */
 export const pixelsOf = (answer: MakeAnswer): Pixel[] =>
   answer.pixels.map((made) => ({
     id: made.id,

@@ -1,4 +1,7 @@
-/** A GIF whose pictures have a square each, at the given places from left to right, on black. */
+/**
+ * A GIF of `side` × `side` pixels with a picture for each entry of `squares`. Each shows a white bar on black, a
+ * quarter as wide and half as high as the picture. The entry is the column of the bar's left edge.
+ */
 export function gifOf(squares: readonly number[], side = 40): Uint8Array<ArrayBuffer> {
   const u16 = (n: number) => [n & 255, n >> 8];
   // Seven bits a pixel: codes have eight bits as long as the table is cleared often enough.

@@ -12,7 +12,7 @@ interface FakeWorker extends MakeWorker {
   answer(reply: Reply): void;
 }
 
-/** Workers that answer when the test says so. */
+/** A maker, and the workers that it started, which answer when the test calls `answer`. */
 function workers() {
   const started: FakeWorker[] = [];
   const start = () => {

@@ -15,11 +15,11 @@ import type { Ask, Cause, Reply } from './protocol';
 
 export type MakeWorker = WorkerLike<Ask, Reply>;
 
-/** Makes frames and plans in a worker that is started with the first wish. */
+/** Makes frames, plans and more in a worker that is started with the first request. */
 export interface Maker {
   /**
-   * Makes a frame. One is made at a time, and of those that wait only the newest: `null` is the answer to a wish that a
-   * newer one replaced.
+   * Makes a frame. Requests of `make`, `film` and `plan` replace each other: only the newest waits, and one that a
+   * newer one replaced is answered with null.
    */
   make(request: MakeRequest, asset: Uint8Array | null): Promise<MakeAnswer | null>;
   /** Makes the frames of an animation, as `make` does one frame. */
@@ -30,26 +30,26 @@ export interface Maker {
   plan(request: PlanningRequest): Promise<PlanAnswer | null>;
   /** Where pixels are after a motion: a show of two frames, the bytes of a file. The second has the motion. */
   moved(show: Uint8Array): Promise<MovedAnswer>;
-  /** What settings may name. */
+  /** Fonts and shapes that settings may name. */
   list(): Promise<MakeChoices>;
   /** What a file is. */
   look(bytes: Uint8Array): Promise<MakeFile>;
-  /** Beats of music: one channel, and how many samples there are in a second. */
+  /** Beats of music: one channel, and its samples a second. */
   beats(samples: Float32Array, rate_Hz: number): Promise<BeatsAnswer>;
-  /** Ends the worker; the next wish starts another. */
+  /** Ends the worker and all requests; the next request starts another worker. */
   end(): void;
 }
 
-/** A frame that takes longer is given up, milliseconds: such a file is hostile, or far too fine for robots. */
+/** Any request, but for those of `LONG`, that takes longer is given up, milliseconds. */
 export const MAKE_MAX_MS = 10_000;
 
-/** An animation, a whole show or music that takes longer is given up, milliseconds. */
+/** A request of `LONG` that takes longer is given up, milliseconds. */
 export const MAKE_ALL_MAX_MS = 60_000;
 
-/** What takes that long. */
+/** Requests with a whole animation, show or piece of music, which may take `MAKE_ALL_MAX_MS`. */
 const LONG: readonly Ask['do'][] = ['film', 'fit', 'beats'];
 
-/** A newer wish lets the frame in work finish for this long, milliseconds; starting a worker anew takes as long. */
+/** After a newer request, the running one may go on for this long, milliseconds: a new worker starts as slowly. */
 export const GRACE_MS = 300;
 
 interface Job {
@@ -57,7 +57,7 @@ interface Job {
   done(reply: Reply | null): void;
 }
 
-/** What people read about each cause. */
+/** What people read about each cause of a failure. */
 const WORDS: Record<Cause, string> = {
   unloaded:
     'The part of the page that makes frames did not load. Reload the page, or use a newer browser.',
@@ -151,7 +151,7 @@ export function createMaker(start: () => MakeWorker): Maker {
   };
 }
 
-/** Whether a newer wish replaces it. */
+/** Whether a newer request of these kinds replaces this one. */
 const isPreview = (ask: Ask) => ask.do === 'make' || ask.do === 'film' || ask.do === 'plan';
 
 const causeOf = (got: Reply | null): Cause => (got?.of === 'failure' ? got.cause : 'broken');

@@ -12,7 +12,7 @@ import { makePictures, type Picture, type Pictures } from './pictures';
 
 /** A frame that is being made, or several: the settings, and the newest answer to them. */
 export interface Making {
-  /** Key of the frame. */
+  /** Key of the frame that the pixels are made for. */
   readonly frame: number;
   readonly robots: number;
   draft: Readable<Draft>;
@@ -21,24 +21,24 @@ export interface Making {
   made: Readable<Made>;
   /** The pen for a line that is drawn on the floor. */
   pen: Store<Pen>;
-  /** Index of the picture on the stage, where the settings give several. */
+  /** Index of the picture on the stage, where the settings give several, counted from 0. */
   at: Store<number>;
   change(fields: Partial<Draft>): void;
-  /** Places the moved pixels anew as well. */
+  /** Forgets which pixels were moved by hand, so that they are placed anew too. */
   forgetMoved(): void;
-  /** The full result for the settings as they are; null: there is none. */
+  /** The full result for the present settings, made if need be; null: nothing to make, an error, or a newer change. */
   complete(): Promise<readonly Picture[] | null>;
-  /** Takes no more answers. */
+  /** Ignores all answers from now on. */
   end(): void;
 }
 
-/** What is known about the settings. */
+/** The answers to the settings. */
 export interface Made {
-  /** The newest answer with pixels, shown while the next one is made; null: none yet. */
+  /** The newest answer without an error, shown until the next one is there; null: none yet. */
   shown: Pictures | null;
-  /** The answer to the settings as they are; null: none yet, or there is nothing to make. */
+  /** The answer to the present settings; null: none yet, or there is nothing to make. */
   answer: Pictures | null;
-  /** Whether `answer` is the full result. */
+  /** Whether `answer` is the full result, or an error. */
   isFull: boolean;
   /** The box around the lights of `shown`, along the picture's axes, in shares of its longer side; null: no lights. */
   box: Box | null;
@@ -46,7 +46,7 @@ export interface Made {
   drives: Drives | null;
 }
 
-/** What a making is about. */
+/** What is made, and for which frame of which show. */
 export interface MakingOf {
   show: Show;
   frame: Frame;
@@ -57,12 +57,12 @@ export interface MakingOf {
   fileOf(hash: string): Promise<Uint8Array>;
 }
 
-/** Settings that rest for this long get the full result, milliseconds. */
+/** Time without a change after a quick answer until the full result is made, milliseconds. */
 export const REST_MS = 250;
 
 const NOTHING: Made = { shown: null, answer: null, isFull: false, box: null, drives: null };
 
-/** What the stage shows of a making; null: nothing yet. */
+/** The answer with the pixels that the stage shows; null: none yet. */
 export const pictureShown = (making: Making): MakeAnswer | null => {
   const pictures = making.made.get().shown?.pictures ?? [];
   return pictures[Math.min(making.at.get(), pictures.length - 1)]?.answer ?? null;
@@ -82,7 +82,7 @@ export function createMaking(maker: Maker, of: MakingOf): Making {
     const found = sourcesOf(draft.get());
     return found.length === 1 ? found.map((one) => ({ ...one, moved: moved.get() })) : found;
   };
-  /** Makes the settings as they are; null: they changed meanwhile. */
+  /** Makes the present settings; null: they changed meanwhile, or a newer request replaced this one. */
   const make = async (quality: MakeQuality): Promise<Pictures | null> => {
     const asked = version;
     const wish = { ...of, draft: draft.get(), sources: sources(), quality };

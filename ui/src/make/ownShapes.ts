@@ -21,12 +21,12 @@ export type ShapeStorage = Pick<Storage, 'getItem' | 'setItem'>;
 
 const KEY = 'lightbots-own-shapes';
 
-/** Most shapes that are kept: more are not found again in a list. */
+/** Most shapes that are kept. */
 export const SHAPES_MAX = 100;
 
 /**
- * Kept in the browser's storage: there it survives reloading, a restart of the server and the deletion of shows, and nobody
- * else's shapes are in the way. `storage`: null where the browser has none; then shapes last until the page is closed.
+ * Own shapes, kept in the browser's storage: they survive reloading, a restart of the server and the deletion of
+ * shows. `storage`: null where the browser has none; then shapes last until the page is closed.
  */
 export function createOwnShapes(storage: ShapeStorage | null): OwnShapes {
   const list = createStore<readonly OwnShape[]>(read(storage));
@@ -42,7 +42,7 @@ export function createOwnShapes(storage: ShapeStorage | null): OwnShapes {
   return {
     list,
     save(name, source) {
-      // Its file belongs to a show, and may be gone with it.
+      // A file belongs to a show, and may be deleted with it.
       if (source.asset !== null) return 'Files are not kept as own shapes; choose the file again.';
       const others = list.get().filter((shape) => shape.name !== name);
       if (others.length >= SHAPES_MAX)
@@ -56,7 +56,7 @@ export function createOwnShapes(storage: ShapeStorage | null): OwnShapes {
 
 const written = ({ name, source }: OwnShape) => ({ name, source: writeSource(source) });
 
-/** What another version or program wrote there is left out where it is no shape. */
+/** The shapes in the storage; entries that are no shapes are left out. */
 function read(storage: ShapeStorage | null): OwnShape[] {
   try {
     const found: unknown = JSON.parse(storage?.getItem(KEY) ?? '[]');

@@ -3,7 +3,7 @@ import { drawnKind, lineThrough, pointsOnStage, type DrawnKind, type PenFloor } 
 import type { Making } from './making';
 import { sizeOf } from './pictures';
 
-/** The line that is being made, as the pen sees it; null: something else is made. */
+/** The drawn line of the Make panel, as the pen sees it. */
 export interface PenLine {
   kind: DrawnKind;
   /** Stage metres. */
@@ -27,21 +27,21 @@ export function penLine({
   return { kind, points, closed: now.closed, isDrawing: isAdding || points.length < 2, chosen };
 }
 
-/** Draws the line through these points, stage metres. */
+/** Makes the line go through these points, stage metres, kept on the floor. */
 export const setPoints = (making: Making, points: readonly Point[], floor: PenFloor) =>
   making.change(lineThrough(points, floor));
 
 export const choosePoint = (making: Making, point: number | null) =>
   making.pen.update((pen) => ({ ...pen, point }));
 
-/** Ends the adding of points; answers whether there was any. */
+/** Ends the adding of points; answers whether points were being added. */
 export function stopAdding(making: Making): boolean {
   const { isAdding } = making.pen.get();
   making.pen.update((pen) => ({ ...pen, isAdding: false }));
   return isAdding;
 }
 
-/** Chooses the next point, or the one before. */
+/** Chooses the point after (1) or before (-1) the chosen one; past the end it begins again. */
 export function chooseNextPoint(making: Making, by: 1 | -1) {
   const line = penLine(making);
   if (!line || line.points.length === 0) return;

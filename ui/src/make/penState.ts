@@ -1,6 +1,6 @@
 /** What the pen does with a line that is drawn on the floor. */
 export interface Pen {
-  /** Whether each press adds a point at the end. A line of fewer than two points is always being drawn. */
+  /** Whether each press adds a point at the end. */
   isAdding: boolean;
   /** Index of the chosen point; null: none. */
   point: number | null;

@@ -11,19 +11,19 @@ export interface Picture {
   turn: number;
   /** Longer side of the picture, metres. */
   size_m: number;
-  /** The box around its lights, counted from `center` along its axes, in shares of `size_m`. */
+  /** The box around the picture's lights, counted from `center` along its axes, in shares of `size_m`. */
   box: Box;
 }
 
 /** Smallest picture that is made by dragging, metres. */
 export const SIZE_MIN_M = 0.1;
 
-/** The middle of the floor, where pictures are that name no other place. */
+/** The middle of the floor: the `center` of a draft that has none. */
 const MIDDLE: Point = { x: 0, y: 0 };
 
 /**
- * The box around the lights of the answers to `draft`; null: there are no lights. `moved`: ids of pixels that do not belong
- * to it.
+ * The box around the lights of the answers to `draft`, as `Picture.box`; null: there are no lights. `moved`: ids of
+ * pixels that were moved by hand and are left out.
  */
 export function lightsBox(
   answers: readonly MakeAnswer[],
@@ -45,7 +45,7 @@ export function lightsBox(
   return places.length === 0 ? null : boxOf(places);
 }
 
-/** The picture that a draft is now, while the answer to it may still be on its way. */
+/** The picture of the present draft, with the box of the newest answer; null: no answer with lights yet. */
 export function pictureOf(
   draft: Draft,
   made: { shown: Pictures | null; box: Box | null },
@@ -55,17 +55,17 @@ export function pictureOf(
   return { center: draft.center ?? MIDDLE, turn: draft.turn, size_m, box: made.box };
 }
 
-/** A place on the stage from a place along the picture's axes, metres from its middle. */
+/** The place on the stage of a place given along the picture's axes, metres from the picture's middle. */
 export const stageFromPicture = ({ center, turn }: Picture, at: Point): Point =>
   rotate({ x: center.x + at.x, y: center.y + at.y }, center, turn);
 
-/** The place along the picture's axes, metres from its middle. */
+/** The place along the picture's axes, metres from the picture's middle, of a place on the stage. */
 export function pictureFromStage({ center, turn }: Picture, at: Point): Point {
   const p = rotate(at, center, -turn);
   return { x: p.x - center.x, y: p.y - center.y };
 }
 
-/** A corner of a picture: the side along each of its axes. */
+/** A corner of a picture: for each of the picture's axes, at which end of it. */
 export interface Corner {
   sx: -1 | 1;
   sy: -1 | 1;
@@ -78,13 +78,13 @@ export const CORNERS: readonly Corner[] = [
   { sx: -1, sy: -1 },
 ];
 
-/** A corner of the box around the lights, along the picture's axes, metres from its middle. */
+/** A corner of the box around the lights, along the picture's axes, metres from the picture's middle. */
 export const cornerAt = ({ box, size_m }: Picture, { sx, sy }: Corner): Point => ({
   x: (sx > 0 ? box.maxX : box.minX) * size_m,
   y: (sy > 0 ? box.maxY : box.minY) * size_m,
 });
 
-/** The picture moved by a way on the stage; its middle stays on the floor. */
+/** The new middle of a picture that is moved by `by`, stage metres; limited by `onFloor`. */
 export function movedBy(picture: Picture, by: Point, floor: Floor): Pick<Draft, 'center'> {
   const { center } = picture;
   return { center: onFloor({ x: center.x + by.x, y: center.y + by.y }, floor) };
@@ -95,10 +95,10 @@ export interface Floor {
   depth_m: number;
 }
 
-/** A middle nearer to the edge than this leaves no room for a picture, metres. */
+/** Least distance of a picture's middle from the edge of the floor, metres. */
 const EDGE_M = 0.1;
 
-/** The nearest middle to a place that leaves room for a picture. */
+/** The place nearest to `p` that is on the floor and `EDGE_M` from its edges, stage metres. */
 export function onFloor(p: Point, { width_m, depth_m }: Floor): Point {
   const within = (value: number, side: number) => {
     const most = Math.max(0, side / 2 - EDGE_M);
@@ -108,8 +108,8 @@ export function onFloor(p: Point, { width_m, depth_m }: Floor): Point {
 }
 
 /**
- * The picture after its corner was dragged from one place to another, stage metres: the opposite corner stays, or with
- * `about` the middle.
+ * Size and middle of a picture after its corner was dragged from one place to another, stage metres. The opposite
+ * corner stays, or with `about` the middle. The size stays between `SIZE_MIN_M` and the floor's longer side.
  */
 export function scaledBy(
   picture: Picture,
@@ -133,10 +133,10 @@ export function scaledBy(
   return { size_m: rounded(size_m, 1e4), center: onFloor(center, floor) };
 }
 
-/** Dragging with Shift turns by this, radians. */
+/** Step of turning with Shift, radians: 15°. */
 const STEP = Math.PI / 12;
 
-/** The picture after its knob was dragged from one place to another, stage metres. */
+/** The turn of a picture after its knob was dragged from one place to another, stage metres; from -π to π. */
 export function turnedBy(
   { center, turn }: Picture,
   [from, to]: readonly [Point, Point],

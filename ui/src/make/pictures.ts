@@ -12,17 +12,17 @@ export interface Pictures {
   pictures: readonly Picture[];
   /** Factor by which an animation is slowed down; 1: as it is, or there is none. */
   slowdown: number;
-  /** What is missing or different from the whole; each picture has notes of its own. */
+  /** Remarks about the whole; each picture's answer has notes of its own. */
   notes: readonly MakeRemark[];
   error: MakeRemark | null;
 }
 
-/** The picture of a frame. */
+/** What is made for one frame. */
 export interface Picture {
   source: FrameSource;
   /** Name of the frame; null: it keeps its own. */
   name: string | null;
-  /** How long it stays, seconds; null: as long as the frame that it goes to. */
+  /** Air time of the frame, seconds; null: the frame keeps its own. */
   airTime_s: number | null;
   answer: MakeAnswer;
 }
@@ -33,7 +33,7 @@ export const sizeOf = (made: Pictures | null): number | null =>
     ? null
     : Math.max(...made.pictures.map((picture) => picture.answer.size_m));
 
-/** What shall be made. */
+/** A request for pictures. */
 export interface Wish {
   show: Show;
   frame: Frame;
@@ -46,7 +46,7 @@ export interface Wish {
   fileOf(hash: string): Promise<Uint8Array>;
 }
 
-/** Makes all pictures; null: a newer wish came, or `isWanted` says no. */
+/** Makes all pictures; null: a newer request replaced this one, or `isWanted` says no. An error is in the answer. */
 export async function makePictures(
   maker: Maker,
   wish: Wish,
@@ -81,7 +81,7 @@ async function oneByOne(
   return { pictures, slowdown: 1, notes: [], error: null };
 }
 
-/** An error that names its file, if there are several. */
+/** The error, with the file's name before its message if there is a name. */
 const named = (error: MakeRemark, file: string | null): MakeRemark =>
   file === null ? error : { ...error, message: `${file}: ${error.message}` };
 

@@ -16,7 +16,7 @@ export type Ask =
   | { do: 'make'; request: MakeRequest; asset: Uint8Array | null }
   /** The frames of an animation. */
   | { do: 'film'; request: MakeRequest; bytes: Uint8Array }
-  /** A show, the bytes of a file, for another number of robots. */
+  /** Fits a show, given as the bytes of a file, to another number of robots. */
   | { do: 'fit'; show: Uint8Array; robots: number }
   /** A plan of a show. */
   | { do: 'plan'; request: PlanningRequest }
@@ -24,7 +24,7 @@ export type Ask =
   | { do: 'moved'; show: Uint8Array }
   | { do: 'list' }
   | { do: 'look'; bytes: Uint8Array }
-  /** Beats of music: one channel, and how many samples there are in a second. */
+  /** Beats of music: one channel, and its samples a second. */
   | { do: 'beats'; samples: Float32Array; rate_Hz: number };
 
 /** A message from the worker. */
@@ -37,10 +37,10 @@ export type Reply =
   | { of: 'list'; choices: MakeChoices }
   | { of: 'look'; file: MakeFile }
   | { of: 'beats'; answer: BeatsAnswer }
-  /** The worker is of no more use. */
+  /** The request could not be answered; the asking side then ends the worker. */
   | { of: 'failure'; cause: Cause };
 
-/** Why there is no answer: the module did not load, it broke at this wish, or it took too long. */
+/** Why there is no answer: the module did not load, it failed at this request, or it took too long. */
 export type Cause = 'unloaded' | 'broken' | 'too-slow';
 
 /** The functions of the module, as `wasm-bindgen` writes them. */
@@ -57,7 +57,7 @@ export interface Module {
 
 const NO_FILE = new Uint8Array();
 
-/** What the module says to a message. */
+/** The module's answer to a message. */
 export function reply(module: Module, ask: Ask): Reply {
   switch (ask.do) {
     case 'make': {

@@ -4,7 +4,7 @@ import { beats, film, fit, initSync, list, look, make, moved, plan } from '../ge
 import { createMaker, type Maker } from './maker';
 import { reply } from './protocol';
 
-/** The real module on this thread, behind the same protocol as in a worker. */
+/** A maker with the real module on this thread, behind the protocol of the worker. */
 export function realMaker(): Maker {
   initSync({ module: readFileSync(new URL('../generated/browser_bg.wasm', import.meta.url)) });
   return createMaker(() =>

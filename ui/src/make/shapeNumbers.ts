@@ -1,6 +1,6 @@
 import type { ShapeNumber } from './draft';
 
-/** The settings that each shape uses. */
+/** The numeric settings that each shape uses; a shape that is not listed uses none. */
 export const SHAPE_NUMBERS: Readonly<Record<string, readonly ShapeNumber[]>> = {
   heart: ['aspect'],
   star: ['count', 'inner'],
@@ -17,5 +17,5 @@ export const SHAPE_NUMBERS: Readonly<Record<string, readonly ShapeNumber[]>> = {
   random: ['aspect'],
 };
 
-/** Least and greatest width to height. */
+/** Least and greatest ratio of width to height that the Make panel sets. */
 export const ASPECT = { min: 0.2, max: 5 } as const;

@@ -20,7 +20,7 @@ const picture: Picture = {
 };
 const stretched = { picture, draft, stretch: { by: 'aspect', aspect: 2 } as const };
 
-/** The picture after the middle of a side was dragged outwards by some way, metres. */
+/** The settings after the middle of a side was dragged outwards by `by_m` metres, inwards if negative. */
 function drag(side: Side, by_m: number, about = false) {
   const at = { x: side.sx * 0.5, y: side.sy * 0.25 };
   const to = { x: at.x + side.sx * by_m, y: at.y + side.sy * by_m };

@@ -13,7 +13,7 @@ import {
 } from './picture';
 import { ASPECT, SHAPE_NUMBERS } from './shapeNumbers';
 
-/** A side of a picture: the direction along one of its axes, 0 along the other. */
+/** A side of a picture, by its direction from the middle along the picture's axes: ±1 along one, 0 along the other. */
 export type Side = { sx: -1 | 1; sy: 0 } | { sx: 0; sy: -1 | 1 };
 
 export const SIDES: readonly Side[] = [
@@ -23,17 +23,17 @@ export const SIDES: readonly Side[] = [
   { sx: -1, sy: 0 },
 ];
 
-/** What a picture can be stretched by: its width to height, or its points; null: it keeps its proportions. */
+/** What changes when a picture is stretched: its ratio of width to height, which is `aspect` now, or its points. */
 export type Stretch = { by: 'aspect'; aspect: number } | { by: 'points' };
 
-/** Whether a picture has handles at its sides. */
+/** Whether the picture of a draft can be stretched: drawn lines, but not straight ones, and shapes with an aspect. */
 export function isStretchable(draft: Draft): boolean {
   const drawn = drawnKind(draft);
   if (drawn !== null) return drawn !== 'line';
   return draft.tab === 'shape' && SHAPE_NUMBERS[draft.shape]?.includes('aspect') === true;
 }
 
-/** `shapes`: the usual settings of shapes. */
+/** How a draft's picture is stretched; null: it cannot be, or its aspect is not known. `shapes`: usual settings. */
 export function stretchOf(draft: Draft, shapes: readonly MakeShape[]): Stretch | null {
   if (!isStretchable(draft)) return null;
   if (drawnKind(draft) !== null) return { by: 'points' };
@@ -50,8 +50,8 @@ export interface Stretched {
 }
 
 /**
- * The settings after a side was dragged from one place to another, stage metres: the opposite side stays, or with `about`
- * the middle.
+ * The settings after a side was dragged from one place to another, stage metres. The opposite side stays, or with
+ * `about` the middle. Size and aspect stay within their limits.
  */
 export function stretchedBy(
   { picture, draft, stretch }: Stretched,
@@ -83,7 +83,7 @@ export function stretchedBy(
   };
 }
 
-/** A longer width makes the width to height greater, a longer height smaller. */
+/** Least factor by which the picture may be stretched along an axis, so that its aspect stays within `ASPECT`. */
 const leastFactor = (stretch: Stretch, axis: 'x' | 'y') =>
   stretch.by === 'points'
     ? 0
@@ -103,5 +103,5 @@ function scaled(points: readonly Point[], kx: number, ky: number): Point[] {
   return points.map((p) => scaleAbout(p, middle, kx, ky));
 }
 
-/** Four digits after the point. */
+/** Rounded to four digits after the point. */
 const tidy = (value: number) => Math.round(value * 1e4) / 1e4;

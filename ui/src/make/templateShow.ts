@@ -4,25 +4,25 @@ import { pixelsOf, requestOf } from './frame';
 import type { Maker } from './maker';
 import type { TemplateFrame } from './templates';
 
-/** A frame of a template with its pixels, or why there are none. */
+/** A frame of a template with its pixels, and the answer of the module, which may be an error. */
 export interface MadeTemplateFrame {
   frame: Frame;
   answer: MakeAnswer;
 }
 
-/** Share of the shorter side of the floor that a grown picture may take. */
+/** Share of the floor's shorter side that an enlarged picture (`grown` above 1) may take. */
 const ROOM = 0.86;
 
-/** Most robots that find room for every template on a floor of 3 m by 3 m: 73 for WELCOME, the module said. */
+/** Robots up to which every template has room on a floor of 3 m by 3 m: WELCOME has room for 73, the module said. */
 const ROBOTS_USUAL_FLOOR = 70;
 
-/** The floor of a new show: 3 m by 3 m, and larger for fleets that find no room there. */
+/** The floor of a new show: 3 m by 3 m for up to `ROBOTS_USUAL_FLOOR` robots, larger for more, in steps of 0.5 m. */
 export function floorFor(robots: number): Stage {
   const side_m = Math.ceil(3 * Math.sqrt(Math.max(1, robots / ROBOTS_USUAL_FLOOR)) * 2) / 2;
   return { ...EMPTY_STAGE, width_m: side_m, depth_m: side_m };
 }
 
-/** Makes one frame of a template; null: a newer wish came. */
+/** Makes one frame of a template; null: a newer request replaced this one. */
 export async function makeTemplateFrame(
   maker: Maker,
   wanted: TemplateFrame,
@@ -49,10 +49,10 @@ export async function makeTemplateFrame(
   return answer && { frame: { ...empty, sources: [source], pixels: pixelsOf(answer) }, answer };
 }
 
-/** To a centimetre: a finer difference of sizes is not seen. */
+/** Metres rounded to a centimetre: a finer difference of sizes is not seen. */
 const round = (m: number) => Math.round(m * 100) / 100;
 
-/** Makes all frames; an error says which frame cannot be made and why. `told` hears how many frames are made. */
+/** Makes all frames of a template; throws if one cannot be made. `told` gets the number of frames made, after each. */
 export async function makeTemplate(
   maker: Maker,
   frames: readonly TemplateFrame[],

@@ -2,11 +2,11 @@ import { toHex } from '../base/colour';
 import type { FrameSource } from '../model/sources';
 import { sourceTitle } from './draft';
 
-/** A show to begin with: what its frames are made from, for any number of robots. */
+/** A show to begin with: what its frames are made from, by the number of robots. */
 export interface Template {
   id: string;
   title: string;
-  /** Index of the frame that stands for the show. */
+  /** Index of the frame that is shown as the template's picture. */
   face: number;
   frames(robots: number): TemplateFrame[];
 }
@@ -16,7 +16,7 @@ export interface TemplateFrame {
   name: string;
   airTime_s: number;
   source: FrameSource;
-  /** Larger than by itself, by this factor, as far as the floor allows; 1: as by itself. */
+  /** Factor by which the picture is larger than its automatic size, as far as the floor allows; 1: as it is. */
   grown: number;
 }
 
@@ -66,22 +66,22 @@ const shape = (
   grown,
 });
 
-/** Welcomes with the number of robots that each needs to be read, as the module counts it. */
+/** Words of welcome, each with the number of robots from which it is used: the module says it is readable then. */
 const WELCOMES: readonly [string, number][] = [
   ['WELCOME', 64],
   ['HELLO', 45],
 ];
 
-/** The longest welcome that a number of robots can write. */
+/** The longest word of welcome that a number of robots can write readably; at least `HI`. */
 export const welcomeFor = (robots: number) =>
   WELCOMES.find(([, needed]) => robots >= needed)?.[0] ?? 'HI';
 
 const QUARTER = Math.PI / 2;
 
-/** Turns of a spiral whose arms stay apart, for a number of robots. */
+/** Turns of a spiral for a number of robots, 1 to 5: more robots have room for more arms. */
 const turnsFor = (robots: number) => Math.max(1, Math.min(5, Math.round(Math.sqrt(robots / 12))));
 
-/** A show of one's own words. It begins with them: the editor opens on the first frame, and that is what was asked for. */
+/** The frames of a show of the user's words: the words first, because the editor opens on the first frame; a ring. */
 export function wordShow(text: string): TemplateFrame[] {
   const own = words(text, 6, LETTERS);
   return [

@@ -3,7 +3,7 @@ import { countText } from '../base/numbers';
 import { sentence } from '../base/words';
 import type { Pictures } from './pictures';
 
-/** A sentence for people about what was made. */
+/** A short text for people about what was made, and how good it is. */
 export interface Verdict {
   tone: 'good' | 'care' | 'bad' | 'none';
   text: string;
@@ -18,7 +18,7 @@ export function verdictOf({ pictures, error }: Pictures, robots: number): Verdic
     : verdictOfSeries(pictures.map((picture) => picture.answer));
 }
 
-/** How well robots show one picture, or why there is none. */
+/** How well `robots` robots show one picture, or why there is none. */
 export function verdictOfAnswer(answer: MakeAnswer, robots: number): Verdict {
   const { readability, enough, error } = answer;
   if (error) return { tone: 'bad', text: sentence(error.message) };

@@ -2,7 +2,7 @@ import load, { beats, film, fit, list, look, make, moved, plan } from '../genera
 import address from '../generated/browser_bg.wasm?url';
 import { reply, type Ask, type Reply } from './protocol';
 
-/** The module in a thread of its own, so that the page stays quick while frames are made. */
+/** The module, in this worker's own thread, so that the page stays quick while frames are made. */
 const loaded = load({ module_or_path: address });
 const answer = (message: Reply) => self.postMessage(message);
 

@@ -1,6 +1,6 @@
 import { type Point, boxOf, centreOf } from '../base/geometry';
 
-/** Arrangements map positions in the order of the pixels' ids to as many new positions. */
+/** Positions in stage metres. Each arrangement returns a new position for each given one, in the same order. */
 export type Places = readonly Point[];
 
 export type Edge = 'left' | 'centre' | 'right' | 'top' | 'middle' | 'bottom';
@@ -20,7 +20,7 @@ export function align(places: Places, edge: Edge): Point[] {
   return places.map((p) => (horizontal ? { x: to, y: p.y } : { x: p.x, y: to }));
 }
 
-/** Equal gaps along an axis between the outermost two. */
+/** Gives equal steps along an axis between the two outermost positions, which stay. The other axis stays. */
 export function distribute(places: Places, axis: 'x' | 'y'): Point[] {
   const order = places.map((_, i) => i).sort((a, b) => at(places, a)[axis] - at(places, b)[axis]);
   const [first, last] = [order[0] ?? 0, order[order.length - 1] ?? 0];
@@ -42,10 +42,10 @@ export function mirror(places: Places, axis: 'x' | 'y'): Point[] {
   );
 }
 
-/** Rounds of pushing; pixels that are still too close then have no room. */
+/** Most rounds of pushing. Pixels that are still too close after the last round stay so. */
 const ROUNDS_MAX = 200;
 
-/** Pushes pixels closer than `gap_m` apart by the least distance. */
+/** Pushes pixels closer than `gap_m` metres apart, both by half of what is missing, for up to `ROUNDS_MAX` rounds. */
 export function spread(places: Places, gap_m: number): Point[] {
   const result = places.map((p) => ({ ...p }));
   for (let round = 0; round < ROUNDS_MAX; round++) if (!push(result, gap_m, round)) break;
@@ -61,7 +61,7 @@ function push(points: Point[], gap_m: number, round: number): boolean {
       const d = Math.hypot(dx, dy);
       if (d >= gap_m - 1e-6) continue;
       moved = true;
-      // Pixels at the same position part along a direction that depends on their index.
+      // Pixels at the same position are pushed along a direction that depends on their indices and the round.
       const angle = (i * 2.4 + j + round) % (2 * Math.PI);
       const [ux, uy] = d > 1e-9 ? [dx / d, dy / d] : [Math.cos(angle), Math.sin(angle)];
       const half = (gap_m - d) / 2 + 1e-7;

@@ -19,7 +19,7 @@ function shown(airTimes: number[], drives: number[]) {
   return { show: { ...newShow('x', 1), frames }, timeline };
 }
 
-/** Moments at which pictures begin, and the end, seconds of the music. */
+/** The changes, and the moments after them at which the three pictures begin and the show ends, seconds of music. */
 function begins(airTimes: number[], drives: number[]) {
   const { show, timeline } = shown(airTimes, drives);
   const changes = arrangeToMusic(show, timeline, beats);

@@ -15,15 +15,16 @@ export interface NewAirTime {
   bar: number;
 }
 
-/** A picture that is seen for less is missed, seconds. Shorter ones of the show stay as they are. */
+/** Least new air time, seconds: a shorter picture is missed. A frame that is shorter already may keep its air time. */
 export const SEEN_S = 0.5;
 
-/** Changes below this are none, seconds. */
+/** Changes of an air time below this are left out, seconds. */
 export const SAME_S = 0.001;
 
 /**
- * Air times with which each picture begins with a bar of the music, and the show ends with one: with the bar nearest to
- * where that is now, unless robots cannot be there by then. Drives stay as they are.
+ * Air times with which each picture after the first begins with a bar of the music, and the show ends with one. Each
+ * goes to the bar nearest to its present moment that leaves time for the drive. Drives keep their durations. Frames
+ * without a change, or without such a bar, are left out.
  */
 export function arrangeToMusic(
   show: Show,

@@ -10,7 +10,7 @@ export interface ArrowOptions {
   /** Grid step to snap to, metres; 0: none. */
   grid_m(): number;
   neighbours(): boolean;
-  /** A length with its unit. */
+  /** A length as text with its unit. */
   lengthText(metres: number): string;
 }
 
@@ -27,11 +27,11 @@ type Phase =
     }
   | { name: 'marquee'; from: Point; before: ReadonlySet<number> };
 
-/** The pixels that a click on one of them means: its whole group, but with Alt or a double click it alone. */
+/** Ids of the pixels that a click on pixel `hit` means: its whole group, but with Alt or a double click it alone. */
 const meant = (editor: Editor, hit: number, { alt, again }: Touch): Iterable<number> =>
   alt || again ? [hit] : wholeGroups(editor.current(), [hit]);
 
-/** Selects by click and marquee, and drags the selection. */
+/** Selects pixels by click and by marquee (a rectangle), and drags the selection. Shift adds, or removes by a click. */
 export function createArrowTool(options: ArrowOptions): Tool {
   let phase: Phase = { name: 'idle' };
 
@@ -133,7 +133,7 @@ export function createArrowTool(options: ArrowOptions): Tool {
   };
 }
 
-/** Distance of the drag, and distance to the nearest other pixel. */
+/** Place of the dragged pixel, length of the drag, and distance to the nearest pixel that stays, if below 1 m. */
 function dragHint(
   now: { lead: Point; places: ReadonlyMap<number, Point> },
   by: { dx: number; dy: number },

@@ -1,7 +1,7 @@
 import { number, object, text } from './jsonFields';
 import type { Show } from './show';
 
-/** A file of a show, as the document has it. */
+/** A file of a show, as the document lists it; `bytes` is its size. */
 export interface Asset {
   name: string;
   media_type: string;
@@ -26,7 +26,7 @@ export const assetEntry = (
   bytes: number,
 ): Readonly<Record<string, Asset>> => ({ [hash]: { name, media_type: mediaType, bytes } });
 
-/** Adds files to a show. */
+/** Adds files, listed by hash, to a show; without files the same show. */
 export const withAssets = (show: Show, assets: Readonly<Record<string, unknown>>): Show =>
   Object.keys(assets).length === 0
     ? show
@@ -34,7 +34,7 @@ export const withAssets = (show: Show, assets: Readonly<Record<string, unknown>>
 
 const PICTURES = ['image/png', 'image/jpeg', 'image/webp', 'image/gif'];
 
-/** The files that layers of light can project. */
+/** The files of a show that layers of light can project: pictures. A file without a name is named by its hash. */
 export const pictureAssets = (show: Show): { hash: string; name: string }[] =>
   [...assetsOf(show)]
     .filter(([, { media_type }]) => PICTURES.includes(media_type))

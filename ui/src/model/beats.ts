@@ -15,13 +15,13 @@ export type BeatGrid =
   /** Each beat, increasing. */
   | { of: 'times'; times_s: readonly number[] };
 
-/** Beats of a bar in most music. */
+/** Beats of a bar where a show does not say: as in most music. */
 export const PER_BAR = 4;
 
-/** Tempi that a show can have, beats a minute. */
+/** Least and greatest tempo of a show, beats a minute. */
 export const BPM = { min: 10, max: 600 };
 
-/** The beats of a show; null: they are not known. */
+/** The beats of a show; null: the show says none, or a tempo that is not positive. */
 export function beatsOf(show: Pick<Show, 'rest'>): Beats | null {
   if (show.rest.beats === undefined) return null;
   const { bpm, offset_s, times_s, per_bar } = object(show.rest.beats);
@@ -62,13 +62,13 @@ export function musicOf(show: Show): MusicFile | null {
   return null;
 }
 
-/** The show with this music, in place of what it had, and with its beats. */
+/** The show with this music and these beats in place of its own; null: without beats. */
 export function withMusic(show: Show, file: MusicFile, beats: Beats | null): Show {
   const assets = assetEntry(file.hash, file.name, file.mediaType, file.bytes);
   return withBeats({ ...withAssets(withoutMusic(show), assets), music: file.name }, beats);
 }
 
-/** The show without music and beats; its file goes too. */
+/** The show without music and beats. The music's file is no longer listed. */
 export function withoutMusic(show: Show): Show {
   const file = musicOf(show);
   const silent = withBeats({ ...show, music: null }, null);
@@ -83,7 +83,7 @@ export interface Beat {
   isBar: boolean;
 }
 
-/** Beats from one moment to another, at most `most`. */
+/** Beats from `from_s` to `to_s`, both included, seconds of the music file; the first `most` of them. */
 export function beatsBetween(beats: Beats, from_s: number, to_s: number, most = 20_000): Beat[] {
   const { grid, perBar } = beats;
   const found: Beat[] = [];
@@ -105,7 +105,7 @@ export function beatsBetween(beats: Beats, from_s: number, to_s: number, most = 
   return found;
 }
 
-/** Index of the first moment that is not before `from_s`. */
+/** Index of the first moment not before `from_s` in an increasing list; its length: there is none. */
 function firstFrom(times_s: readonly number[], from_s: number): number {
   let [low, high] = [0, times_s.length];
   while (low < high) {
@@ -116,7 +116,7 @@ function firstFrom(times_s: readonly number[], from_s: number): number {
   return low;
 }
 
-/** The tempo, beats a minute; of beats that keep none, the median. */
+/** The tempo, beats a minute: of listed beats by the median gap; 0: fewer than two beats. */
 export function tempoOf({ grid }: Beats): number {
   if (grid.of === 'steady') return grid.bpm;
   const gaps = grid.times_s.slice(1).map((at, i) => at - (grid.times_s[i] ?? 0));
@@ -124,7 +124,7 @@ export function tempoOf({ grid }: Beats): number {
   return middle ? 60 / middle : 0;
 }
 
-/** Twice as many beats. */
+/** Twice as many beats: a steady tempo doubles, up to `BPM.max`; listed beats get one halfway between each two. */
 export function doubled({ grid, perBar }: Beats): Beats {
   if (grid.of === 'steady')
     return { perBar, grid: { ...grid, bpm: Math.min(BPM.max, 2 * grid.bpm) } };
@@ -136,14 +136,17 @@ export function doubled({ grid, perBar }: Beats): Beats {
   return { perBar, grid: { of: 'times', times_s: all } };
 }
 
-/** Every second beat. */
+/** Every second beat: a steady tempo halves, down to `BPM.min`; of listed beats the 1st, 3rd, 5th … stay. */
 export function halved({ grid, perBar }: Beats): Beats {
   if (grid.of === 'steady')
     return { perBar, grid: { ...grid, bpm: Math.max(BPM.min, grid.bpm / 2) } };
   return { perBar, grid: { of: 'times', times_s: grid.times_s.filter((_, i) => i % 2 === 0) } };
 }
 
-/** All beats later by a share of a beat, or earlier. Beats before the file begins are left out. */
+/**
+ * All beats later by a share of a beat, or earlier if it is negative. Listed beats before second 0 of the file are left
+ * out. A steady grid that would begin before it begins one beat later.
+ */
 export function shifted({ grid, perBar }: Beats, share: number): Beats {
   if (grid.of === 'steady') {
     const beat_s = 60 / grid.bpm;
@@ -157,24 +160,24 @@ export function shifted({ grid, perBar }: Beats, share: number): Beats {
   return { perBar, grid: { of: 'times', times_s: moved.filter((at) => at >= 0) } };
 }
 
-/** All beats later by seconds, or earlier. */
+/** All beats later by `by_s` seconds, or earlier if negative, as by `shifted`. */
 export function nudged(beats: Beats, by_s: number): Beats {
   return shifted(beats, (by_s * tempoOf(beats)) / 60);
 }
 
-/** The first bar begins one beat later. */
+/** Bars begin one beat later: the first beat goes. */
 export function barsLater({ grid, perBar }: Beats): Beats {
   if (grid.of === 'steady')
     return { perBar, grid: { ...grid, offset_s: grid.offset_s + 60 / grid.bpm } };
   return { perBar, grid: { of: 'times', times_s: grid.times_s.slice(1) } };
 }
 
-/** Taps that a tempo is taken from. */
+/** Least number of taps that give a tempo. */
 export const TAPS_LEAST = 4;
 
 /**
- * The steady tempo through taps (least squares), seconds of the music file; null: too few taps, or no tempo that music
- * has. The first beat of the file is as early as the tempo allows.
+ * The steady tempo through taps (least squares), seconds of the music file; null: fewer than `TAPS_LEAST` taps, or a
+ * tempo outside `BPM`. The first tap begins a bar. The grid begins as many whole bars earlier as fit into the file.
  */
 export function tapped(taps_s: readonly number[], perBar: number): Beats | null {
   const count = taps_s.length;

@@ -6,7 +6,7 @@ import { mix, type Rgb } from '../base/colour';
 import type { FrameSource } from './sources';
 import { backRows, newFrame, newKey, type Frame, type Pixel, type Show, type Stage } from './show';
 
-/** Changes of a show: pure functions that return the same show when nothing changes. */
+/** Changes of a show: pure functions. Those that find nothing to change mostly return the same show. */
 
 const withFrame = (show: Show, index: number, change: (frame: Frame) => Frame): Show => {
   const frame = show.frames[index];
@@ -23,7 +23,10 @@ const mapPixels = (show: Show, index: number, change: (pixel: Pixel) => Pixel): 
     return pixels.every((p, i) => p === frame.pixels[i]) ? frame : { ...frame, pixels };
   });
 
-/** Pixels that were made from a source count as moved by hand from then on. */
+/**
+ * Moves pixels of the frame at `index` to the places given by id, stage metres. Moved pixels that were made from a
+ * source are listed as moved by hand in that source.
+ */
 export function placePixels(show: Show, index: number, places: ReadonlyMap<number, Point>): Show {
   const before = show.frames[index];
   const after = mapPixels(show, index, (p) => {
@@ -33,7 +36,7 @@ export function placePixels(show: Show, index: number, places: ReadonlyMap<numbe
   return before ? withFrame(after, index, (frame) => withMoved(before, frame)) : after;
 }
 
-/** The frame with the pixels that left their places since `before` among the moved ones of their sources. */
+/** The frame with those pixels listed as moved by hand in their sources that changed since `before`. */
 function withMoved(before: Frame, frame: Frame): Frame {
   const left = frame.pixels.filter((p, i) => p.part !== null && p !== before.pixels[i]);
   if (left.length === 0) return frame;
@@ -45,12 +48,12 @@ function withMoved(before: Frame, frame: Frame): Frame {
   return { ...frame, sources };
 }
 
-/** The pixels of a source, and what else they change of the frame. */
+/** A source with its pixels, and the fields of the frame that change with it. */
 export type MadeFrame = { source: FrameSource; pixels: readonly Pixel[] } & FrameFields;
 
 /**
- * Gives a frame the pixels of one source, and those of each further source to a new frame after it. `assets`: files that
- * the sources need, as the document lists them.
+ * Gives the frame with `key` the source and pixels of `made[0]`, and each further one to a new frame after it. An
+ * empty `made` takes the frame out. `assets`: files that the sources need, as the document lists them.
  */
 export function makeFrames(
   show: Show,
@@ -76,7 +79,7 @@ export function makeFrames(
   return { ...show, frames, rest: { ...show.rest, assets: { ...known, ...assets } } };
 }
 
-/** The made pixels; those that were moved by hand stay in their groups, the others are new. */
+/** The made pixels. Those that the source lists as moved by hand keep the group of the frame's pixel with their id. */
 function keepGroups(
   frame: Frame,
   { source, pixels }: { source: FrameSource; pixels: readonly Pixel[] },
@@ -92,7 +95,7 @@ export const recolour = (show: Show, index: number, colors: ReadonlyMap<number, 
     return color === undefined || color === p.color ? p : { ...p, color };
   });
 
-/** Colours from `from` to `to` across the chosen pixels, left to right or bottom to top, whichever is longer. */
+/** Colours by id from `from` to `to` across pixels: along x, or along y if they extend more in y. */
 export function gradient(pixels: readonly Pixel[], from: Rgb, to: Rgb): Map<number, Rgb> {
   const [xs, ys] = [pixels.map((p) => p.x), pixels.map((p) => p.y)];
   const [minX, minY] = [Math.min(...xs), Math.min(...ys)];
@@ -101,7 +104,7 @@ export function gradient(pixels: readonly Pixel[], from: Rgb, to: Rgb): Map<numb
   return new Map(pixels.map((p) => [p.id, mix(from, to, share(p))]));
 }
 
-/** Binds a pixel to a robot in every frame, or frees it (`null`). A robot shows one pixel: its other ones are freed. */
+/** Binds pixel `id` to a robot in every frame, or frees it (`null`). Other pixels that were bound to it are freed. */
 export function pinPixel(show: Show, id: number, robot: string | null): Show {
   const pinned = (p: Pixel): Pixel => {
     const wanted = p.id === id ? robot : p.robot === robot ? null : p.robot;
@@ -110,7 +113,7 @@ export function pinPixel(show: Show, id: number, robot: string | null): Show {
   return show.frames.reduce((now, _, i) => mapPixels(now, i, pinned), show);
 }
 
-/** The robot of each pinned pixel; if frames name several robots, the first. */
+/** The robot of each pinned pixel, by pixel id; if frames name several robots, the first. */
 export function pinsOf(show: Show): Map<number, string> {
   const pins = new Map<number, string>();
   for (const frame of show.frames)
@@ -124,7 +127,7 @@ const insertFrames = (show: Show, index: number, frames: readonly Frame[]): Show
   frames: [...show.frames.slice(0, index + 1), ...frames, ...show.frames.slice(index + 1)],
 });
 
-/** A copy that stands at no absolute time, and that layers and cues do not name. */
+/** A copy without an absolute time and without an id, so that no layer or cue names it. */
 const copyFrame = (frame: Frame, name: string): Frame => ({
   ...frame,
   key: newKey(),
@@ -133,7 +136,10 @@ const copyFrame = (frame: Frame, name: string): Frame => ({
   name,
 });
 
-/** Adds a frame with the pixels of the frame before it, because robots stand there. They are then drawn by hand. */
+/**
+ * Adds a frame after the one at `after`, with the same pixels and air time, because robots stand on them. The new
+ * frame's pixels belong to no source.
+ */
 export function addFrame(show: Show, after: number): Show {
   const before = show.frames[after];
   const pixels = (before?.pixels ?? []).map((p) => (p.part === null ? p : { ...p, part: null }));
@@ -150,7 +156,7 @@ export function duplicateFrames(show: Show, indices: readonly number[]): Show {
   return insertFrames(show, sorted[sorted.length - 1] ?? -1, copies);
 }
 
-/** Takes frames out; the last one stays. */
+/** Takes frames out, and the cues that name them. If no frame would be left, nothing changes. */
 export function deleteFrames(show: Show, indices: readonly number[]): Show {
   const gone = new Set(indices);
   const frames = show.frames.filter((_, i) => !gone.has(i));
@@ -159,7 +165,7 @@ export function deleteFrames(show: Show, indices: readonly number[]): Show {
     : keepLayersInFrames(show, withoutLostCues(show, { ...show, frames }));
 }
 
-/** Moves frames, in their order, to stand together before the one that is at `before` now (or at the end). */
+/** Moves frames together, in their order, to just before the frame that is at `before` now, or to the end. */
 export function moveFrames(show: Show, indices: readonly number[], before: number): Show {
   const chosen = new Set(indices);
   const at = Math.max(0, Math.min(show.frames.length, before));
@@ -198,7 +204,7 @@ export const setShow = (show: Show, fields: Partial<Pick<Show, 'name' | 'identit
 /** Number of pixels of the frame with the most pixels. */
 export const fleetSize = (show: Show) => Math.max(0, ...show.frames.map((f) => f.pixels.length));
 
-/** Number of robots that wait for others to fail. */
+/** Number of spare robots of the show, which wait for others to fail; 0 where the document says no positive integer. */
 export function sparesOf(show: Show): number {
   const { spares } = show.rest;
   return typeof spares === 'number' && Number.isInteger(spares) && spares > 0 ? spares : 0;
@@ -209,7 +215,10 @@ export function setSpares(show: Show, count: number): Show {
   return { ...show, rest: count > 0 ? { ...rest, spares: count } : rest };
 }
 
-/** Gives every frame `count` pixels: removes the highest ids, adds new pixels in rows at the back edge. */
+/**
+ * Gives every frame `count` pixels: removes the highest ids, or adds the lowest free ids with colour `color`. New
+ * pixels get places of `backRows`, first those at least 0.08 m from the frame's pixels.
+ */
 export function setFleetSize(show: Show, count: number, color: Rgb): Show {
   const rows = backRows(show.stage, count, color);
   const frames = show.frames.map((frame) => {

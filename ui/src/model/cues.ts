@@ -1,11 +1,11 @@
 import { withId, withRest } from './frameIds';
 import type { Frame, Show } from './show';
 
-/** A cue as the document has it: the show waits for GO at the end of a frame's air time, or at a moment. */
+/** A cue as the document has it. With `frame`, the show waits for GO at the end of that frame's air time. */
 interface CueJson {
   name?: unknown;
   frame?: unknown;
-  /** Id of a frame not after that one: the show does not wait, but repeats from there to here until GO. */
+  /** Id of `frame` or of a frame before it: the show repeats from that one to `frame` until GO, instead of waiting. */
   loop_from?: unknown;
 }
 
@@ -24,8 +24,8 @@ export function cueOf(show: Show, frame: Frame | undefined): string | null {
 }
 
 /**
- * Index of the frame from which the show repeats until GO at the cue of the frame at `index`; null: it does not repeat;
- * `lost`: the cue names a frame that is not there or comes later, so that the show waits.
+ * Index of the frame from which the show repeats until GO, by the cue of the frame at `index`. Null: it does not
+ * repeat. `lost`: the cue names a frame that is not there or comes later, so that the show waits.
  */
 export function loopFrom(show: Show, index: number): number | 'lost' | null {
   const from = ofFrame(show, show.frames[index])?.loop_from;
@@ -40,7 +40,7 @@ export function goOf(show: Show, index: number): 'waits' | 'repeats' | null {
   return typeof loopFrom(show, index) === 'number' ? 'repeats' : 'waits';
 }
 
-/** Lets frames wait for GO at a cue of that name, or not; null: they go on by themselves. */
+/** Lets the show wait for GO after each of these frames, at a cue of that name; null: it goes on by itself. */
 export const setCue = (show: Show, indices: readonly number[], name: string | null): Show =>
   indices.reduce((now, index) => setOne(now, index, name), show);
 
@@ -53,7 +53,7 @@ function setOne(show: Show, index: number, name: string | null): Show {
   return withCues(named, [...others, { ...ofFrame(show, frame), name, frame: id }]);
 }
 
-/** Lets the show repeat from the frame at `from` to the one at `index` until GO; null: it waits there. */
+/** Lets the cue of frame `index` repeat from frame `from` until GO; null: it only waits. No change without a cue. */
 export function setLoop(show: Show, index: number, from: number | null): Show {
   const cue = ofFrame(show, show.frames[index]);
   if (!cue || loopFrom(show, index) === from) return show;
@@ -67,7 +67,7 @@ export function setLoop(show: Show, index: number, from: number | null): Show {
   );
 }
 
-/** The show without the cues of frames that it no longer has. A loop that lost its first frame begins with the next one. */
+/** `show` without cues of frames that only `before` has. A loop that lost its first frame begins with the next one. */
 export function withoutLostCues(before: Show, show: Show): Show {
   const kept = new Set(show.frames.map((f) => f.key));
   const lost = new Set(before.frames.flatMap((f) => (kept.has(f.key) ? [] : [f.id])));

@@ -4,7 +4,7 @@ import type { Frame } from './show';
 const NOTHING: readonly never[] = [];
 const hollows = new WeakMap<Frame, readonly Dot[]>();
 
-/** A frame's pixels as hollow dots; the same list for the same frame. */
+/** A frame's pixels as hollow dots; the same list for the same frame object. Empty without a frame. */
 export function hollowOf(frame: Frame | undefined): readonly Dot[] {
   if (!frame) return NOTHING;
   let dots = hollows.get(frame);

@@ -4,7 +4,7 @@ import { createDrafts, createKeeper, type DraftStorage } from './drafts';
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-/** A shelf with room for so many characters in one thing. */
+/** A storage that throws for a value longer than `room` characters. */
 function shelf(room = Infinity): DraftStorage & { things: Map<string, string> } {
   const things = new Map<string, string>();
   return {
@@ -22,7 +22,7 @@ function shelf(room = Infinity): DraftStorage & { things: Map<string, string> } 
   };
 }
 
-/** The drafts of a page; pages of one tab come one after another. */
+/** The drafts of one page of a tab, in the storage `on`, with a clock that stands. */
 const drafts = (on: DraftStorage | null, tab = 'me', page = 'first', now_ms = 1000) =>
   createDrafts(on, { tab, page, now_ms: () => now_ms });
 const NOTHING = { etag: null, document: {} };

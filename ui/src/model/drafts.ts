@@ -3,7 +3,7 @@ export type DraftStorage = Pick<Storage, 'getItem' | 'setItem' | 'removeItem' | 
 
 /** A show with changes that the server does not have yet. */
 export interface Draft {
-  /** The version in the library that the draft is based on. */
+  /** The version in the library that the draft is based on; null: none. */
   etag: string | null;
   document: unknown;
 }
@@ -14,7 +14,7 @@ export interface LeftDraft extends Draft {
   id: string;
   /** Name of the show. */
   name: string;
-  /** When it was last written, milliseconds since 1970. */
+  /** When the draft was last written, milliseconds since 1970. */
   at_ms: number;
 }
 
@@ -24,7 +24,7 @@ export interface LeftDraft extends Draft {
  */
 export interface Drafts {
   place(): Place;
-  /** Drafts of closed pages, newest first. */
+  /** Drafts of closed pages and of this tab's earlier pages, newest first. */
   left(): LeftDraft[];
   drop(id: string): void;
 }
@@ -32,15 +32,15 @@ export interface Drafts {
 /** The place of one editor's draft. */
 export interface Place {
   id: string;
-  /** Whether the draft fitted into the storage. `isLeft`: its page closes, and other pages may restore it. */
+  /** Writes the draft; answers whether it could. `isLeft`: its editor closes, and any page may restore it. */
   keep(name: string, draft: Draft, isLeft?: boolean): boolean;
   drop(): void;
 }
 
 const PREFIX = 'lightbots-draft:';
 /**
- * A draft of another tab that is younger is still that tab's own: it saves it itself, milliseconds. Browsers let a
- * hidden page do something once a minute.
+ * A draft of another tab that was written less than this ago, milliseconds, still belongs to that tab, unless it was
+ * left. An open page writes again before: browsers let a hidden page act about once a minute.
  */
 const ALIVE_MS = 80_000;
 /** Period of writing an unsaved draft again, so that other pages see that its page is open, milliseconds. */
@@ -50,7 +50,7 @@ const BEAT_MS = 15_000;
 export interface Writer {
   /** Identifies the browser tab; stays the same when the tab is loaded again. */
   tab: string;
-  /** Identifies the page; never used twice. */
+  /** Identifies this load of the page; a new one for each load. */
   page: string;
   /** Milliseconds since 1970. */
   now_ms(): number;
@@ -58,7 +58,7 @@ export interface Writer {
 
 type Written = Draft & { name: string; tab: string; at_ms: number; isLeft: boolean };
 
-/** Drafts in the browser's storage; null keeps nothing. A full or forbidden storage is no error. */
+/** Drafts in the browser's storage; null keeps nothing. A full or forbidden storage throws no error. */
 export function createDrafts(storage: DraftStorage | null, { tab, page, now_ms }: Writer): Drafts {
   const attempt = <T>(act: (storage: DraftStorage) => T, otherwise: T): T => {
     try {
@@ -67,7 +67,7 @@ export function createDrafts(storage: DraftStorage | null, { tab, page, now_ms }
       return otherwise;
     }
   };
-  /** Places of this page whose editor is open. */
+  /** Ids of this page's drafts of which the last `keep` was without `isLeft`. */
   const held = new Set<string>();
   let places = 0;
   const isGone = (id: string, draft: Written) =>
@@ -111,9 +111,9 @@ export function createDrafts(storage: DraftStorage | null, { tab, page, now_ms }
 /** Least time between two writes of a draft, milliseconds. */
 const EVERY_MS = 250;
 
-/** Writes a draft after every change, and removes the draft when the server has the change. */
+/** Writes an editor's draft soon after a change, and removes it once the server has all changes. */
 export interface Keeper {
-  /** Identifies the editor within the browser. */
+  /** Identifies the editor within the browser: the id of its draft. */
   id: string;
   /** Whether this key of the storage belongs to the editor's draft. */
   isKeptAs(key: string): boolean;
@@ -122,17 +122,20 @@ export interface Keeper {
   flush(): void;
   /** The show gets another name. */
   rename(name: string): void;
-  /** The editor closes: the next page may restore its draft. */
+  /** The editor closes: another page may restore its unsaved draft. */
   leave(): void;
   /** The page came back, or the draft was removed: unsaved changes are written again. */
   hold(): void;
   /** The server has all changes. */
   saved(): void;
-  /** Whether an unsaved change did not fit into the storage. */
+  /** Whether the last write of an unsaved draft failed. */
   isEndangered(): boolean;
 }
 
-/** `heirOf`: a draft that was left and is what this editor begins with; it goes once it is kept here or saved. */
+/**
+ * `first`: the show's name. `draft`: what to write now. `heirOf`: id of a left draft that this editor begins with; it
+ * is removed once this editor's draft is written or saved.
+ */
 export function createKeeper(
   drafts: Drafts,
   first: string,

@@ -9,23 +9,25 @@ import {
 import { createSaver, type Saved } from './saver';
 
 /*
- * Tabs of one browser change one show, on a server that comes and goes. Every change is a word; a document is its
- * words. Whatever happens, no word is lost that nobody threw away.
+ * Tabs of one browser change one show, on a server that comes and goes. Every change adds a word; a document is a list
+ * of words. Whatever happens, only words that an act throws away may be lost.
  */
 
 beforeEach(() => void vi.useFakeTimers({ now: 0 }));
 afterEach(() => void vi.useRealTimers());
 
+/** Number of random courses that are tried. */
 const SEEDS = 40;
+/** Number of random acts in each course. */
 const ACTS = 60;
 const TABS = ['left', 'middle', 'right'];
-/** A change is on the shelf so long after it was made, milliseconds. */
+/** A change is in the storage at the latest this time after it was made, milliseconds. */
 const WRITTEN_MS = 250;
 
 type Words = Set<string>;
 const wordsOf = (draft: Pick<LeftDraft, 'document'>) => draft.document as string[];
 
-/** Numbers from a seed, below `sides` (Park and Miller's generator). */
+/** A function that gives pseudo-random numbers from 0 to `sides` - 1 (Park and Miller's generator). */
 function createDice(seed: number) {
   let state = seed * 7919 + 1;
   return (sides: number) => (state = (state * 48_271) % 2_147_483_647) % sides;
@@ -37,7 +39,7 @@ interface Page {
   isGone: boolean;
   drafts: Drafts;
   words: Words;
-  /** When words were added here. */
+  /** When words were added on this page, milliseconds, by word. */
   added_ms: Map<string, number>;
   saver: ReturnType<typeof createSaver>;
   keeper: ReturnType<typeof createKeeper>;
@@ -49,7 +51,7 @@ class World {
   thrownAway: Words = new Set();
   isServerUp = true;
   version = 1;
-  /** What the server has, and everything it ever had. */
+  /** The words that the server has now; `ever`: all that it ever had. */
   words: Words = new Set();
   ever: Words = new Set();
   made = 0;
@@ -59,7 +61,7 @@ class World {
     this.dice = createDice(seed);
   }
 
-  /** Opens the show in a tab, where another page may have been. */
+  /** Opens the show in a new page of a tab; the tab may have had a page before. */
   open(tab: string) {
     const page = { tab, isGone: false, added_ms: new Map() } as Page;
     const writer = { tab, page: `page${++this.made}`, now_ms: () => Date.now() };
@@ -89,7 +91,7 @@ class World {
     this.end(page);
   }
 
-  /** A page that is gone does nothing any more. */
+  /** Ends a page: it neither saves nor writes any more. */
   end(page: Page) {
     page.saver.stop();
     page.isGone = true;
@@ -113,7 +115,7 @@ class World {
     return { ok: true, etag: this.etag() };
   }
 
-  /** One storage for all pages; each hears when another takes something away. */
+  /** The storage of all pages, as `page` uses it; other pages are told when it removes their draft. */
   shelfOf(page: Page): DraftStorage {
     const { things, pages } = this;
     return {
@@ -131,7 +133,7 @@ class World {
     };
   }
 
-  /** Everything that is somewhere: on the server, in a page, or on the shelf for whoever looks a while later. */
+  /** All words that the server ever had, that a page shows, that a later page finds as left drafts, or thrown away. */
   safe(): Words {
     const writer = { tab: 'new', page: 'new', now_ms: () => Date.now() + 200_000 };
     const nobody = { isGone: false } as Page;
@@ -206,7 +208,7 @@ test.each(Array.from({ length: SEEDS }, (_, seed) => seed))(
       const page = world.pages.get(tab);
       if (!page) world.open(tab);
       else {
-        // Every other act is a change: without those there is nothing to lose.
+        // At least half of the acts are changes: without them there is nothing to lose.
         const act = world.dice(2) === 0 ? change : acts[world.dice(acts.length)];
         act?.(world, page);
         for (const word of page.words) changes.add(word);

@@ -8,7 +8,7 @@ import { newShow, type Show } from './show';
 import type { Tool, Touch } from './tool';
 import { createTransformTool } from './transformTool';
 
-/** A hand that draws with a tool on an editor: pixels 0, 1, 2 stand at y = 0 and x = 0, 0.5, 1. */
+/** Uses a tool on an editor with pixels 0, 1, 2 at x = 0, 0.5, 1 and y = 0, in stage metres. */
 function hand(
   tool: Tool = createArrowTool({ grid_m: () => 0, neighbours: () => false, lengthText }),
 ) {

@@ -21,38 +21,38 @@ export interface Editor extends Gestures, Choice, CopyPaste {
   state: Store<EditorState>;
   current(): Frame | undefined;
   chosenPixels(): Pixel[];
-  /** Takes back the last change; answers its label, `null` when there is none. */
+  /** Cancels a gesture, then takes back the last mark; answers its label, null: there is none. */
   undo(): string | null;
   redo(): string | null;
-  /** Goes to the state after that many changes of the history, counted from its oldest one. */
+  /** Goes to the state after the first `changes` marks of the history; 0: the oldest state. */
   travelTo(changes: number): void;
 }
 
 /** Changes of the show. */
 interface Gestures {
-  /** Changes the show as one mark of the history. Within a gesture the change makes no mark. */
+  /** Changes the show as one mark of the history; no mark if the show stays the same, or within a gesture. */
   change(label: string, change: (show: Show, state: EditorState) => Show): void;
-  /** Begins a gesture: all changes until `commit` are one mark, and `cancel` takes them back. */
+  /** Begins a gesture, unless one is under way: all changes until `commit` are one mark; `cancel` takes them back. */
   begin(): void;
   commit(label: string): void;
   cancel(): void;
   isGesturing(): boolean;
   overlay(overlay: Overlay): void;
-  /** Takes over another state of the same show, as another screen saved it: one mark, and nothing to save. */
+  /** Takes over the show as another screen saved it: one mark, nothing to save. A gesture ends without its own mark. */
   adopt(show: Show): void;
 }
 
 interface Choice {
   select(ids: Iterable<number>): void;
   goToFrame(index: number, how?: ChooseHow): void;
-  /** Chooses frames; the first of them is on the stage. */
+  /** Chooses frames by index; the first in the list is put on the stage. An empty list changes nothing. */
   chooseFrames(indices: readonly number[]): void;
 }
 
 interface CopyPaste {
   /** Copies the chosen pixels; answers their number. */
   copy(): number;
-  /** Gives the copied pixels their places and colours in the frame on the stage; answers their number. */
+  /** Gives the copied places and colours to pixels with the same ids in the frame on the stage; answers how many. */
   paste(): number;
   canPaste(): boolean;
 }
@@ -175,7 +175,7 @@ function createCopyPaste(
   };
 }
 
-/** The same frame keeps its key, so that the strip does not flicker when another screen saves. */
+/** `after` with the keys of `before` at the same indices, so that the strip of frames does not flicker. */
 function keepKeys(before: Show, after: Show): Show {
   const frames = after.frames.map((f, i) => ({ ...f, key: before.frames[i]?.key ?? f.key }));
   return { ...after, frames };

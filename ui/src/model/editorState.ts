@@ -5,11 +5,11 @@ import type { Show } from './show';
 
 export interface EditorState {
   show: Show;
-  /** The frame on the stage. */
+  /** Index of the frame on the stage. */
   frame: number;
-  /** All chosen frames, the one on the stage among them. */
+  /** Indices of all chosen frames, the one on the stage among them. */
   frames: ReadonlySet<number>;
-  /** Where a range of chosen frames begins. */
+  /** Index of the frame at which a range of chosen frames begins. */
   anchor: number;
   /** Ids of the chosen pixels; they stay chosen from frame to frame. */
   selection: ReadonlySet<number>;
@@ -41,7 +41,7 @@ export const firstState = (show: Show, frame: number): EditorState => ({
   changes: 0,
 });
 
-/** The nearest frame that the show has. */
+/** Index of the show's frame nearest to `frame`; 0 without frames. */
 const inside = (show: Show, frame: number) => Math.max(0, Math.min(show.frames.length - 1, frame));
 
 /** The state with the chosen frames limited to the frames that the show has. */
@@ -52,7 +52,7 @@ export function withinShow(state: EditorState): EditorState {
   return { ...state, frame, anchor, frames: new Set(kept.concat(frame)) };
 }
 
-/** The state after a change of the show; `mark` is what undo takes back, `toSave` is 0 for what is saved already. */
+/** The state after the change in `mark`, which undo takes back; `toSave` is 0 for a change that is saved already. */
 export const withMark = (state: EditorState, mark: Mark<Show>, toSave: 0 | 1 = 1): EditorState =>
   withinShow({
     ...state,
@@ -61,7 +61,7 @@ export const withMark = (state: EditorState, mark: Mark<Show>, toSave: 0 | 1 = 1
     changes: state.changes + toSave,
   });
 
-/** The state with another show from the history, and the frame that the mark is about on the stage. */
+/** The state with a show from the history, and the frame at index `frame`, or else the last one, on the stage. */
 export function withShowOf(
   state: EditorState,
   history: History<Show>,
@@ -83,11 +83,11 @@ export function withShowOf(
 /** How choosing a frame treats the frames that are chosen already. */
 export type ChooseHow = 'only' | 'toggle' | 'range';
 
-/** The state with the nearest frame to `index` on the stage. */
+/** The state with the frame at `index`, or the nearest one, chosen as `how` says; the frame on the stage is chosen. */
 export function withFrame(state: EditorState, index: number, how: ChooseHow): EditorState {
   const frame = inside(state.show, index);
   const frames = chosenFrames(state, frame, how);
-  // A frame that was left out is no longer on the stage.
+  // A frame that is no longer chosen leaves the stage to the nearest chosen one.
   const shown = frames.has(frame) ? frame : nearest(frames, frame);
   return { ...state, frame: shown, frames, anchor: how === 'range' ? state.anchor : shown };
 }

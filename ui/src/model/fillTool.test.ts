@@ -3,7 +3,7 @@ import { createEditor } from './editor';
 import { createFillTool, patchOf } from './fillTool';
 import { readShow } from './json';
 
-/** A row of four red pixels and, apart from it, a row of two; a green pixel between the second and the third. */
+/** A row of four red pixels, apart from it a row of two; a green pixel above the middle between pixels 1 and 2. */
 const show = readShow({
   frames: [
     {

@@ -4,7 +4,7 @@ import type { Editor } from './editor';
 import type { Pixel } from './show';
 import { pixelAt, type Tool, type Touch } from './tool';
 
-/** Colours what is clicked: a pixel with those of its colour beside it. A drag colours the pixels that it passes. */
+/** Colours pixels. A click colours a pixel and its patch of one colour; a drag colours the pixels that it passes. */
 export function createFillTool(colour: () => Rgb): Tool {
   let passed: Set<number> | null = null;
   const pass = (editor: Editor, touch: Touch) => {
@@ -43,10 +43,13 @@ export function createFillTool(colour: () => Rgb): Tool {
   };
 }
 
-/** Pixels are beside each other up to this share of their usual distance: a square's diagonal with room for unevenness. */
+/**
+ * Greatest distance of two neighbours in a patch, as a factor of the larger of their distances to the nearest pixel of
+ * their colour. Above 1.41, a square's diagonal, because spacing is uneven. A larger factor joins patches across gaps.
+ */
 const BESIDE = 1.75;
 
-/** The pixels of one colour that lie together with a pixel of it: each beside another one. */
+/** Ids of the patch of pixel `id`: pixels of its colour that a chain of neighbours connects with it. */
 export function patchOf(pixels: readonly Pixel[], id: number): Set<number> {
   const color = pixels.find((p) => p.id === id)?.color;
   const same = pixels.filter((p) => p.color === color);

@@ -1,11 +1,14 @@
 import { blue, green, red, rgb, type Rgb } from '../base/colour';
 import type { Pixel } from './show';
 
-/** Colours of a frame from left to right, at most this many. */
+/** Most colours that stand for a frame. */
 const PARTS = 5;
 const known = new WeakMap<readonly Pixel[], readonly Rgb[]>();
 
-/** The mean colours of a frame's pixels, from left to right; none without pixels, the same list for the same pixels. */
+/**
+ * Mean colours of up to `PARTS` parts of equal size of a frame's pixels, from left to right. Empty without pixels; the
+ * same list for the same list of pixels.
+ */
 export function frameColours(pixels: readonly Pixel[]): readonly Rgb[] {
   let colours = known.get(pixels);
   if (!colours) {

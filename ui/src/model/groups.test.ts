@@ -7,7 +7,7 @@ import { readShow, writeShow } from './json';
 import { newShow, type Show } from './show';
 import type { Touch } from './tool';
 
-/** Pixels 0 to 4 at x = 0, 0.5 and so on; 0, 1 and 2 are a group. */
+/** Pixels 0 to 4 at x = 0, 0.5, 1, 1.5, 2 and y = 0; 0, 1 and 2 are a group. */
 function grouped(): Show {
   const show = newShow('x', 5);
   const frames = show.frames.map((f) => ({

@@ -16,20 +16,20 @@ export const groupsOf = (pixels: readonly Pixel[]): string[] => [
   ...new Set(pixels.flatMap((p) => (p.group === null ? [] : [p.group]))),
 ];
 
-/** The group that these pixels are, if they are one and nothing else. */
+/** The group that all these pixels are in; null: they are in several or in none. */
 export function groupOf(pixels: readonly Pixel[]): string | null {
   const group = pixels[0]?.group ?? null;
   return pixels.every((p) => p.group === group) ? group : null;
 }
 
-/** Makes one group of pixels; they leave the groups they were in. Fewer than two pixels are no group. */
+/** Makes one group of pixels of the frame at `index`; they leave their groups. Fewer than two ids change nothing. */
 export function groupPixels(show: Show, index: number, ids: ReadonlySet<number>): Show {
   const frame = show.frames[index];
   if (!frame || ids.size < 2) return show;
   return setGroup(show, index, ids, freeName(frame));
 }
 
-/** Dissolves the groups that these pixels are in. */
+/** Dissolves the groups, in the frame at `index`, that these pixels are in. */
 export function ungroupPixels(show: Show, index: number, ids: Iterable<number>): Show {
   return setGroup(show, index, wholeGroups(show.frames[index], ids), null);
 }
@@ -45,7 +45,7 @@ function setGroup(show: Show, index: number, ids: ReadonlySet<number>, group: st
   return { ...show, frames: show.frames.map((f, i) => (i === index ? { ...f, pixels } : f)) };
 }
 
-/** A pixel whose group has no other pixel is in no group. */
+/** The pixels; one that is alone in its group leaves it. */
 function withoutSingles(pixels: readonly Pixel[]): Pixel[] {
   const sizes = new Map<string, number>();
   for (const { group } of pixels) if (group !== null) sizes.set(group, (sizes.get(group) ?? 0) + 1);

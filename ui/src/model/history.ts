@@ -1,4 +1,4 @@
-/** Marks that can be undone; the oldest fall off. */
+/** Most marks that can be undone; the oldest fall off. */
 const MARKS_MAX = 500;
 
 /** A change that can be undone: the state before and after it, and its frame. */
@@ -7,7 +7,7 @@ export interface Mark<T> {
   after: T;
   /** Name of the change, shown with Undo. */
   label: string;
-  /** Index of the frame that changed. */
+  /** Index of the frame on the stage at the change. */
   frame: number;
 }
 
@@ -36,8 +36,8 @@ export function stepForth<T>(history: History<T>): [History<T>, Mark<T>] | null 
 }
 
 /**
- * The history after that many changes, with the last mark on the way and the side of it that is the state then; null: it is
- * there already.
+ * The history moved to the point after its first `changes` marks. Also a mark next to that point, and which of its
+ * states, `before` or `after`, is the state at the point. Null: the history is at that point already.
  */
 export function stepTo<T>(
   history: History<T>,

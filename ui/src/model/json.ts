@@ -93,7 +93,7 @@ const FIELDS_2 = [
   'trajectories',
 ];
 
-/** A show without parts of version 2 stays version 1, so that older programs read it. */
+/** Whether a show uses parts of version 2. Without them it is written as version 1, so that older programs read it. */
 const usesVersion2 = (show: Show) =>
   FIELDS_2.some((field) => field in show.rest) ||
   show.frames.some(
@@ -105,7 +105,7 @@ const usesVersion2 = (show: Show) =>
       f.pixels.some((p) => p.part !== null || p.group !== null),
   );
 
-/** The document as the server reads it; places to a tenth of a millimetre. */
+/** The document as the server reads it; pixels' places are rounded to a tenth of a millimetre. */
 export function writeShow(show: Show): unknown {
   return {
     lightbots: usesVersion2(show) ? 2 : 1,
@@ -151,5 +151,5 @@ function writeFrame(frame: Frame): unknown {
   };
 }
 
-/** Metres to a tenth of a millimetre, and no minus before zero. */
+/** Metres rounded to a tenth of a millimetre; -0 becomes 0. */
 const tenths = (metres: number) => Math.round(metres * 1e4) / 1e4 + 0;

@@ -12,7 +12,7 @@ export const pair = (value: unknown): [number, number] => {
   return [number(numbers[0], 0), number(numbers[1], 0)];
 };
 
-/** The fields of an object that the screen does not use. */
+/** The fields of an object without those in `known`. */
 export function without(json: Json, known: readonly string[]): Json {
   return Object.fromEntries(Object.entries(json).filter(([key]) => !known.includes(key)));
 }

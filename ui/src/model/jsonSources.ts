@@ -1,7 +1,7 @@
 import { list, number, object, pair, text, type Json } from './jsonFields';
 import { SOURCE_KINDS, type FloorBox, type FrameSource, type SourcePart } from './sources';
 
-/** The sources of a frame. */
+/** The sources of a frame from its JSON; those of an unknown kind are left out. */
 export const readSources = (value: unknown): FrameSource[] => list(value).flatMap(readSource);
 
 function readSource(value: unknown): FrameSource[] {
@@ -35,13 +35,13 @@ export const writeSource = (source: FrameSource): unknown => ({
   ...(Object.keys(source.settings).length === 0 ? {} : { settings: source.settings }),
 });
 
-/** The part of a source, from the fields of a pixel. */
+/** The part of a source that a pixel shows, from the pixel's JSON; null: it shows none. */
 export const readPart = (pixel: Json): SourcePart | null =>
   'source' in pixel || 'part' in pixel
     ? { source: number(pixel.source, 0), name: text(pixel.part) }
     : null;
 
-/** Fields of a pixel; the first source goes without saying where the part has a name. */
+/** The JSON fields of a pixel for its part; source 0 is left out where the part has a name. */
 export function writePart(part: SourcePart | null): Json {
   if (part === null) return {};
   const source = part.source === 0 && part.name !== '' ? {} : { source: part.source };

@@ -5,7 +5,7 @@ import { pixelAt, type Tool } from './tool';
 /** Most corners of a lasso; after that the last corner follows the pointer. */
 const CORNERS_MAX = 2000;
 
-/** Selects the pixels inside a freehand line. Shift adds to the selection. */
+/** Selects the pixels inside a freehand line; a click selects one pixel or none. Shift adds to the selection. */
 export function createLassoTool(): Tool {
   let line: Point[] | null = null;
   let before: ReadonlySet<number> = new Set();

@@ -59,7 +59,7 @@ export const LAYER_KINDS: Readonly<Record<string, LayerKind>> = {
 /** The name of a layer for people: its own, else that of its effect. */
 export const titleOf = ({ name, kind }: Layer) => name || (LAYER_KINDS[kind]?.title ?? kind);
 
-/** Whether the layer is changed by a setting: an effect along the robots' order has no place. */
+/** Whether a setting changes the layer. Place, angle or size do not where what the effect runs along has none. */
 export function isUsed({ kind, settings }: Layer, setting: LayerSetting): boolean {
   const isKnown = LAYER_KINDS[kind]?.settings.includes(setting) ?? false;
   const isSpot = SPOT.some((one) => one === setting);
@@ -76,7 +76,7 @@ export type Along = (typeof ALONGS)[number];
 export const alongOf = (settings: LayerSettings): Along =>
   ALONGS.find((along) => along === settings.along) ?? 'line';
 
-/** Numbers with the values that count without them, as docs/light.md has them. */
+/** Values of numeric settings where a layer does not set them, as in docs/light.md. */
 const NUMBERS = {
   angle: 0,
   size_m: 1,
@@ -96,14 +96,14 @@ export const placeOf = ({ settings }: Layer): Point => {
   return { x, y };
 };
 
-/** Share of the layer that shows, 0 to 1; null: it changes over time. */
+/** Opacity of the layer, 0 to 1, 1 if it is not set; null: it changes over time. */
 export const opacityOf = ({ settings }: Layer): number | null =>
   Array.isArray(settings.opacity) ? null : number(settings.opacity, 1);
 
 /** A colour of a palette. */
 export interface PaletteColour {
   color: Rgb;
-  /** Where it stands, 0 to 1, and its opacity; null: it is one of equal distances, opaque. */
+  /** Its position along the palette and its opacity, each 0 to 1; null: the colours are evenly spaced and opaque. */
   stop: { at: number; opacity: number } | null;
 }
 
@@ -126,7 +126,7 @@ export function paletteOf({ settings }: Layer): readonly PaletteColour[] {
   });
 }
 
-/** A palette as the document has it: colours alone if all have equal distances. */
+/** A palette as the document has it: colours alone if no colour has a `stop`. */
 export function paletteJson(colours: readonly PaletteColour[]): readonly unknown[] {
   if (colours.every(({ stop }) => stop === null)) return colours.map(({ color }) => toHex(color));
   return colours.map(({ color, stop }, i) => {

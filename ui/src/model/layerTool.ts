@@ -4,10 +4,10 @@ import { layersOf, setLayerSettings, type Layer, type LayerSettings } from './la
 import { NO_OVERLAY } from './editorState';
 import type { Tool, Touch } from './tool';
 
-/** What of a layer is dragged: where it starts, or the end of its span. */
+/** What of a layer is dragged: its place, or the end of its span, which also gives its direction. */
 export type LayerGrip = 'place' | 'end';
 
-/** The handles of a layer, stage metres; none for an effect without a place. */
+/** The handles of a layer, stage metres: first the place, then the end if there is one; none without a place. */
 export function layerGrips(layer: Layer): { grip: LayerGrip; at: Point }[] {
   if (!isUsed(layer, 'place')) return [];
   const place = placeOf(layer);
@@ -21,10 +21,10 @@ export function layerGrips(layer: Layer): { grip: LayerGrip; at: Point }[] {
 /** Whether a span or a direction can be dragged. */
 const hasEnd = (layer: Layer) => isUsed(layer, 'size_m') || isUsed(layer, 'angle');
 const turns = (layer: Layer) => isUsed(layer, 'angle');
-/** Distance of the end's handle: the span, or a fixed one where only the direction counts. */
+/** Distance of the end's handle from the place, metres: the span, or 0.5 where only the direction counts. */
 const reach_m = (layer: Layer) => (isUsed(layer, 'size_m') ? numberOf(layer, 'size_m') : 0.5);
 
-/** The handle under a pointer; of two, the end, which may lie on the place. */
+/** The handle under a pointer; of two, the end, which may lie on the place. Null: none. */
 export function layerGripAt(layer: Layer, { at, reach_m }: Touch): LayerGrip | null {
   const near = layerGrips(layer).filter(
     (handle) => Math.hypot(handle.at.x - at.x, handle.at.y - at.y) <= reach_m,
@@ -32,9 +32,11 @@ export function layerGripAt(layer: Layer, { at, reach_m }: Touch): LayerGrip | n
   return near[near.length - 1]?.grip ?? null;
 }
 
+/** Step of the direction while Shift is held, radians: 15°. */
 const TURN_STEP = Math.PI / 12;
 /** Least span, metres, as docs/light.md has it. */
 const SIZE_MIN_M = 0.01;
+/** Greatest span, metres. */
 const SIZE_MAX_M = 1000;
 
 /** Drags a handle of a layer. Shift: the direction in steps of 15°. */
@@ -89,5 +91,5 @@ export function createLayerTool(
 
 const LABEL = 'Place of light';
 
-/** To a millimetre, and to a thousandth of a radian. */
+/** Rounded to a thousandth: metres to a millimetre, radians to a milliradian. */
 const rounded = (value: number) => Math.round(value * 1e3) / 1e3 + 0;

@@ -25,12 +25,15 @@ export type LayerWhen =
   /** Show time: from the start of the first frame's air time. */
   | { of: 'seconds'; from_s: number; to_s: number };
 
-/** Which part of its frames: all, only the drives to them, or only their air times. */
+/**
+ * Which part of each of its frames a layer shines in. `whole`: the drive to the frame and its air time; `transition`:
+ * the drive alone; `picture`: the air time alone.
+ */
 export type LayerPhase = 'whole' | 'transition' | 'picture';
 
 const LAYERS = listField('layers', readLayer, writeLayer);
 
-/** The layers of a show, lowest first; the same list for the same show. */
+/** The layers of a show, lowest first; the same list for the same document. */
 export const layersOf = LAYERS.of;
 
 export const withLayers = LAYERS.with;
@@ -88,7 +91,7 @@ export const duplicateLayer = (show: Show, index: number): Show =>
     layersOf(show).flatMap((layer, i) => (i === index ? [layer, layer] : [layer])),
   );
 
-/** Moves a layer so that it has the number `to` afterwards. */
+/** Moves a layer so that it has the index `to` afterwards; an index out of range changes nothing. */
 export function moveLayer(show: Show, index: number, to: number): Show {
   const layers = [...layersOf(show)];
   const [moved] = layers.splice(index, 1);
@@ -123,7 +126,7 @@ const replaced = (show: Show, index: number, layer: Layer): Show =>
     layersOf(show).map((other, i) => (i === index ? layer : other)),
   );
 
-/** Lets a layer shine in frames, from one index to another. */
+/** Lets a layer shine in the frames between two indices, both included, in either order. */
 export function setLayerFrames(
   show: Show,
   index: number,
@@ -149,7 +152,7 @@ function indicesOf(frames: readonly Frame[]): ReadonlyMap<string | null, number>
   return made;
 }
 
-/** Indices of a layer's first and last frame; null: it is not of frames, or the show has them no more. */
+/** Indices of a layer's first and last frame; null: it is not of frames, or the show lacks one of them. */
 export function framesOf(show: Show, { when }: Layer): readonly [number, number] | null {
   if (when.of !== 'frames') return null;
   const places = indicesOf(show.frames);
@@ -158,8 +161,9 @@ export function framesOf(show: Show, { when }: Layer): readonly [number, number]
 }
 
 /**
- * The show after frames were moved or taken out: a layer whose first frame now comes after its last is over both and what
- * is between; a layer that lost its first or last frame is over those that are left of its frames, or goes with the last.
+ * Mends layers of frames in `show`, in which frames of `before` were moved or taken out. If a layer's first frame now
+ * comes after its last, the two change places. If its first or last frame is gone, the layer covers the span of the
+ * frames that are left of it. A layer without any is removed.
  */
 export function keepLayersInFrames(before: Show, show: Show): Show {
   let now = show;

@@ -10,7 +10,7 @@ export interface LightPreset {
 }
 
 const colours = (...all: Rgb[]) => all.map(toHex);
-/** The floor's left edge, and its front edge, from which light runs across it. */
+/** Middle of the floor's left edge (`left`) and of its edge nearest to the viewer (`front`), stage metres. */
 const left = (floor: Stage) => [-floor.width_m / 2, 0];
 const front = (floor: Stage) => [0, -floor.depth_m / 2];
 /** Up the floor, away from the viewer; radians. */
@@ -20,7 +20,7 @@ const DIMS = { blend: 'multiply' };
 /** A layer that only brightens. */
 const BRIGHTENS = { blend: 'screen' };
 
-/** Twelve presets. Flashes stay at 2 a second: more than three can cause seizures. */
+/** Twelve presets. The strobe flashes twice a second: more than three flashes can cause seizures. */
 export const LIGHT_PRESETS: readonly LightPreset[] = [
   {
     title: 'Rainbow',

@@ -1,9 +1,10 @@
 import { setStage } from './commands';
 import type { Show, Stage } from './show';
 
-/** Size and limits of the fleet's robots; the Elisa-3's where a show does not name them. */
+/** Size and limits of a show's robots: radius, m; speed, m/s; acceleration, m/s²; turn rate, rad/s. */
 export type LimitName = 'radius_m' | 'speed_mps' | 'accel_mps2' | 'turn_radps';
 
+/** The Elisa-3's values, for a show that does not say its own. */
 export const LIMITS_USUAL: Readonly<Record<LimitName, number>> = {
   radius_m: 0.027,
   speed_mps: 0.27,

@@ -5,7 +5,7 @@ import type { Show } from './show';
 export interface ListField<T> {
   /** The list in the order of the document; the same one for the same document. */
   of(show: Show): readonly T[];
-  /** The show with another list. */
+  /** The show with another list; an empty one takes the field out. */
   with(show: Show, values: readonly T[]): Show;
 }
 

@@ -7,7 +7,7 @@ export interface Marks {
   offFloor: ReadonlySet<number>;
 }
 
-/** Pixels that are too close to another pixel, and pixels whose robot would leave the floor or touch an obstacle. */
+/** Ids of pixels too close to another pixel, and of those at which a robot would leave the floor or hit an obstacle. */
 export function marksOf(pixels: readonly Pixel[], stage: Stage): Marks {
   const offFloor = new Set(pixels.filter((p) => !onFloor(p, stage)).map((p) => p.id));
   return { tooClose: crowded(pixels, tooClose_m(stage)), offFloor };
@@ -15,7 +15,7 @@ export function marksOf(pixels: readonly Pixel[], stage: Stage): Marks {
 
 function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
   const r = stage.radius_m;
-  // A robot may be put exactly at the edge by a grid of tenths of a millimetre.
+  // Rounding to tenths of a millimetre may put a robot exactly at the edge. Metres.
   const slack = 1e-6;
   if (
     Math.abs(p.x) > stage.width_m / 2 - r + slack ||
@@ -30,7 +30,7 @@ function onFloor(p: { x: number; y: number }, stage: Stage): boolean {
   });
 }
 
-/** Ids of pixels with a neighbour closer than `gap_m`. A grid of squares of that size keeps thousands of pixels fast. */
+/** Ids of pixels with a neighbour closer than `gap_m` metres. A grid of such squares keeps thousands of pixels fast. */
 export function crowded(
   pixels: readonly Pick<Pixel, 'id' | 'x' | 'y'>[],
   gap_m: number,
@@ -53,5 +53,5 @@ export function crowded(
   return close;
 }
 
-/** One number for a square; floors are at most thousands of squares wide. */
+/** One number for a square of the grid; unique for -32768 to 32767 squares along each axis. */
 const cellKey = (x: number, y: number) => (x + 0x8000) * 0x10000 + (y + 0x8000);

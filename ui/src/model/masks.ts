@@ -5,20 +5,20 @@ import type { Layer } from './layers';
 export const MASKS = ['all', 'pixels', 'circle', 'rectangle'] as const;
 export type MaskChoice = (typeof MASKS)[number];
 
-/** The mask of a layer that has one which the screen can change, as the document has it; null: none. */
+/** The only mask of a layer, as the document has it; null: the layer has none, or several. */
 export function maskOf({ settings }: Layer): Json | null {
   const masks = list(settings.masks);
   return masks.length === 1 ? object(masks[0]) : null;
 }
 
-/** Where a layer shines; `other`: in a way that only its file says. */
+/** Where a layer shines; `other`: several masks, or a shape that the screen does not offer. */
 export function maskChoice(layer: Layer): MaskChoice | 'other' {
   if (list(layer.settings.masks).length === 0) return 'all';
   const shape = text(maskOf(layer)?.shape);
   return MASKS.find((one) => one === shape) ?? 'other';
 }
 
-/** A new mask; `chosen`: ids of pixels. */
+/** The masks for a choice: one, or undefined for all robots. `chosen`: ids of pixels, for `pixels` alone. */
 export function newMask(choice: MaskChoice, chosen: Iterable<number>): readonly Json[] | undefined {
   switch (choice) {
     case 'all':
@@ -32,14 +32,14 @@ export function newMask(choice: MaskChoice, chosen: Iterable<number>): readonly 
   }
 }
 
-/** Ids of the pixels of a mask. */
+/** Ids of the pixels of a mask; empty for another shape. */
 export const maskPixels = (mask: Json): readonly number[] =>
   list(mask.pixels).filter((id): id is number => typeof id === 'number');
 
 /** A point of an opacity curve: seconds since the layer began, and the share that shows, 0 to 1. */
 export type CurvePoint = readonly [seconds: number, share: number];
 
-/** The opacity of a layer over time; null: it stays. */
+/** The opacity of a layer over time; null: it is one number. */
 export function curveOf({ settings }: Layer): readonly CurvePoint[] | null {
   if (!Array.isArray(settings.opacity)) return null;
   return settings.opacity.map((point) => {
@@ -48,13 +48,13 @@ export function curveOf({ settings }: Layer): readonly CurvePoint[] | null {
   });
 }
 
-/** Two seconds from dark to what it was: the first curve that the screen offers. */
+/** The first curve that the screen offers: in two seconds from dark to `opacity`, 0 to 1. */
 export const firstCurve = (opacity: number): readonly CurvePoint[] => [
   [0, 0],
   [2, opacity],
 ];
 
-/** The curve with another point behind its last. */
+/** The curve with another point one second after its last, with the same share. */
 export function withPoint(curve: readonly CurvePoint[]): readonly CurvePoint[] {
   const [seconds, share] = curve[curve.length - 1] ?? [0, 1];
   return [...curve, [seconds + 1, share]];

@@ -41,6 +41,6 @@ export function readMotion(value: unknown): Motion | null {
   }
 }
 
-/** Whether the pixels of the frame are those of the frame before, at other places. */
+/** Whether the motion moves the picture before as a formation, so that the frame has its pixels at other places. */
 export const isOfFormation = (motion: Motion) =>
   motion.kind !== 'stagger' && motion.kind !== 'morph';

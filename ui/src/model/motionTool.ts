@@ -4,18 +4,18 @@ import type { Motion, Pair } from './motion';
 import type { Frame } from './show';
 import type { Tool, Touch } from './tool';
 
-/** A motion and the picture that it moves. */
+/** A motion, and the frame before it, with the picture that it moves. */
 export interface ShownMotion {
   motion: Motion;
   before: Frame;
 }
 
-/** Where the offsets of a motion count from, stage metres. */
+/** Where the points of a motion's curve count from, stage metres: for `travel` the picture's centre, else 0, 0. */
 export function originOf({ motion, before }: ShownMotion): Point {
   return motion.kind === 'travel' ? centreOf(boxOf(before.pixels)) : { x: 0, y: 0 };
 }
 
-/** The handles of a motion, stage metres: the points of its curve, or its centre. */
+/** The handles of a motion, stage metres: the points of its curve, or its centre; none for other kinds. */
 export function motionGrips(shown: ShownMotion): Point[] {
   const { motion } = shown;
   const origin = originOf(shown);
@@ -31,14 +31,14 @@ export function motionGrips(shown: ShownMotion): Point[] {
   }
 }
 
-/** The number of the handle under a pointer; null: there is none. */
+/** Index of the handle under a pointer, the last of several; null: there is none. */
 export function motionGripAt(shown: ShownMotion, { at, reach_m }: Touch): number | null {
   const grips = motionGrips(shown);
   const nth = grips.findLastIndex((grip) => Math.hypot(grip.x - at.x, grip.y - at.y) <= reach_m);
   return nth < 0 ? null : nth;
 }
 
-/** The motion with one of its handles at a place. */
+/** The motion with handle `nth` at a place, stage metres, rounded to a millimetre. */
 export function withGrip(shown: ShownMotion, nth: number, at: Point): Motion {
   const { motion } = shown;
   const origin = originOf(shown);
@@ -55,7 +55,7 @@ export function withGrip(shown: ShownMotion, nth: number, at: Point): Motion {
   }
 }
 
-/** Drags a handle of a motion. `draw` shows the motion meanwhile, null: as it is; `done` takes it. */
+/** Drags a handle of a motion. `draw` shows the changed motion meanwhile, null: the drag is over; `done` takes it. */
 export function createMotionTool(
   shown: ShownMotion,
   nth: number,
@@ -91,5 +91,5 @@ export function createMotionTool(
   };
 }
 
-/** To a millimetre. */
+/** Metres rounded to a millimetre. */
 const rounded = (metres: number) => Math.round(metres * 1e3) / 1e3 + 0;

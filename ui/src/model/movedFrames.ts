@@ -25,7 +25,7 @@ export function usualMotion(kind: MotionKind, before: Frame): Motion | null {
   }
 }
 
-/** From the pixel that is farthest to the right, a little further, and around the middle. */
+/** A first curve for `follow`, stage metres: from the rightmost pixel outwards and back towards the middle. */
 function followOut(pixels: readonly Pixel[], middle: Point): Pair[] {
   const first = pixels.reduce((most, p) => (p.x > most.x ? p : most), { x: -Infinity, y: 0 });
   if (first.x === -Infinity) return [[0, 0]];
@@ -36,15 +36,15 @@ function followOut(pixels: readonly Pixel[], middle: Point): Pair[] {
   ];
 }
 
-/** To a millimetre. */
+/** Metres rounded to a millimetre. */
 const tidy = (metres: number) => Math.round(metres * 1e3) / 1e3 + 0;
 
 /** Places of pixels by their ids, stage metres. */
 export type MovedPlaces = ReadonlyMap<number, Point>;
 
 /**
- * Gives a frame a motion. Where the picture before moves as one, its pixels take the places of `moved`; they keep the
- * colours that they had in the frame.
+ * Gives the frame with `key` a motion; null: none. The first frame gets none. For a motion of a formation, the frame
+ * takes the pixels of the frame before, at the places of `moved`. They keep the colours of the frame's own pixels.
  */
 export function setMotion(
   show: Show,

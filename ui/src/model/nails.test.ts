@@ -4,6 +4,7 @@ import { beginOf, fitNails } from './nails';
 import { newFrame, newShow } from './show';
 import { segmentsOf } from './timeline';
 
+/** Duration of every drive, seconds. */
 const DRIVE_S = 2;
 
 function show(airTimes: readonly number[], nails: Readonly<Record<number, number>>) {

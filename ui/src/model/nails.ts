@@ -2,19 +2,19 @@ import { SAME_S, SEEN_S, withAirTimes } from './arrangeToMusic';
 import type { Show } from './show';
 import type { Segment } from './timeline';
 
-/** A frame that begins nearer to its time begins in time, seconds. The plan says so from the same difference on. */
+/** A frame that begins less than this from its time is in time, seconds. The planner reports larger differences. */
 export const IN_TIME_S = 0.05;
 
-/** When the picture of a frame begins by plan, seconds from the begin of the first one. */
+/** When the picture of a frame begins by plan, seconds after the first picture begins; null: there is no such frame. */
 export function beginOf(timeline: readonly Segment[], index: number): number | null {
   const [first, one] = [timeline[0], timeline[index]];
   return first && one ? one.shownFrom_s - first.shownFrom_s : null;
 }
 
 /**
- * Air times with which nailed pictures begin in time. A picture that would begin too early lets the one before stand longer;
- * one that would begin too late takes time from those before it, back to the last nailed one. What they cannot give stays
- * missing.
+ * The show with air times with which nailed pictures (with `at_s`) begin in time. A picture that would begin too early
+ * lengthens the air time before it. One that would begin too late shortens those before it, back to the last nailed
+ * one, but none below `SEEN_S`. What they cannot give stays missing.
  */
 export function fitNails(show: Show, timeline: readonly Segment[]): Show {
   const air_s = show.frames.map((frame) => frame.airTime_s);

@@ -8,7 +8,7 @@ type Held =
   | { name: 'drawing'; from: Point; before: Show }
   | { name: 'moving'; from: Point; index: number; was: Obstacle };
 
-/** Draws a no-go area, or moves the area under the pointer. Alt: a disc from its centre. */
+/** Draws a no-go area, or moves the area under the pointer. Alt draws a disc from its centre, else a rectangle. */
 export function createObstacleTool(lengthText: (metres: number) => string): Tool {
   let held: Held | null = null;
   return {

@@ -4,7 +4,7 @@ import type { Show } from './show';
 
 /** Most no-go areas of a document. */
 const OBSTACLES_MAX = 1000;
-/** Least size of a drawn area, metres; a smaller drag counts as a click. */
+/** Least side of a drawn rectangle, or radius of a disc, metres; a smaller drag draws nothing. */
 const SIDE_MIN = 0.01;
 
 const withObstacles = (show: Show, obstacles: readonly Obstacle[]) => setStage(show, { obstacles });
@@ -39,7 +39,7 @@ export function obstacleBetween(a: Point, b: Point, round: boolean): Obstacle | 
   return thin ? null : { kind: 'rect', ...box };
 }
 
-/** The topmost obstacle at a place; −1: none. */
+/** Index of the last obstacle at a place, which is drawn on top; −1: none. */
 export const obstacleAt = (obstacles: readonly Obstacle[], p: Point): number =>
   obstacles.findLastIndex((o) =>
     o.kind === 'disc'

@@ -1,7 +1,7 @@
 import type { Point } from '../base/geometry';
 import type { Path } from '../api/types.gen';
 
-/** Position on a path `t` seconds after its start; the start before that time, the end after the path. */
+/** Position on a path `t` seconds after its start; before it the start, after it the end. */
 export function pathAt(path: Path, t: number): Point {
   let [x, y] = path.start;
   let left = Math.max(0, t);
@@ -24,7 +24,7 @@ function cubic(a: number, b: number, c: number, d: number, u: number): number {
   return a * w * w * w + 3 * b * w * w * u + 3 * c * w * u * u + d * u * u * u;
 }
 
-/** Points along a path for drawing; a straight piece adds its end only. */
+/** Points along a path for drawing: a straight piece adds its end only, a curved one ten points. */
 export function polyline(path: Path): Point[] {
   let [x, y] = path.start;
   const points: Point[] = [{ x, y }];

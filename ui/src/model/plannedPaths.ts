@@ -7,7 +7,10 @@ let drawn: { transition?: Transition; pixels?: readonly Pixel[]; paths: readonly
   paths: [],
 };
 
-/** The planned paths to frame `to` in the colours of its pixels; the same list until a path or pixel changes. */
+/**
+ * The planned paths to frame `to`, counted from 0, in the colours of its pixels; black without a pixel. The same list
+ * as in the last call while transition and pixels are the same.
+ */
 export function pathsTo(plan: Plan | null, show: Show | null, to: number): readonly Polyline[] {
   const transition = plan?.transitions.find((t) => t.to === to);
   const pixels = show?.frames[to]?.pixels;

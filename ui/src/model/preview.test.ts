@@ -5,7 +5,7 @@ import { createPreview } from './preview';
 import { newShow } from './show';
 import { timelineOf } from './timeline';
 
-/** Two frames of two seconds each, without drives between them. */
+/** Two frames with an air time of two seconds each, and a timeline on which drives take no time. */
 function twoFrames() {
   const show = setFrames(addFrame(newShow('x', 1), 0), [0, 1], { airTime_s: 2 });
   const editor = createEditor(show);

@@ -2,16 +2,16 @@ import { createStore, type Readable } from '../base/store';
 import type { Editor } from './editor';
 import { segmentAt, totalOf, previewFrom, type Segment } from './timeline';
 
-/** The show as planned, shown on the editor's stage without robots. */
+/** The planned show, played on the editor's stage without robots. */
 export interface Preview {
-  /** The moment of the show on the stage, seconds from its start; null: the frame as it is drawn. */
+  /** The moment on the stage, seconds from the start of the first drive; null: the frame as it is drawn. */
   time_s: Readable<number | null>;
   running: Readable<boolean>;
-  /** Pauses at the moment on the stage, or goes on from there. */
+  /** Pauses if the preview runs, else lets it run on. */
   toggle(): void;
   /** Back to the frame as it is drawn. */
   stop(): void;
-  /** Pauses at this moment. */
+  /** Pauses at this moment, seconds as in `time_s`. */
   scrub(timeline: readonly Segment[], time_s: number): void;
   /** Puts the moment that the preview begins with on the stage. */
   begin(timeline: readonly Segment[]): void;

@@ -16,11 +16,11 @@ export interface Saver {
   state: Store<SaveState>;
   /** The version in the library that this screen's show is based on. */
   etag(): string | null;
-  /** The show changed: saves soon, one save at a time. */
+  /** The show changed: saves soon, one save at a time; during a conflict not before `rebase`. */
   touch(): void;
-  /** Saves pending changes at once. */
+  /** Saves pending changes at once, unless a save is under way or there is a conflict. */
   flush(): void;
-  /** Continues from another version, which the unsaved changes replace. */
+  /** Continues from another version; unsaved changes are then saved over it. */
   rebase(etag: string | null): void;
   /** Continues from another version that the screen shows: no change is unsaved. */
   settle(etag: string | null): void;
@@ -29,7 +29,7 @@ export interface Saver {
 
 /** Time without a change after which the show is saved, milliseconds. */
 const PAUSE_MS = 300;
-/** Longest time between the first unsaved change and the save, milliseconds. */
+/** Longest time between the first unsaved change and the start of a save, milliseconds, if none is under way. */
 const LATEST_MS = 800;
 /** Time between a failed save and the next attempt, milliseconds. */
 const AGAIN_MS = 2000;

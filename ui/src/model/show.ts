@@ -10,7 +10,7 @@ export interface Show {
   identity: Identity;
   music: string | null;
   frames: readonly Frame[];
-  /** Fields of the document that the screen does not use, such as layers and assets, kept unchanged. */
+  /** The other fields of the document as JSON, such as layers and assets. Unknown ones are saved as they were read. */
   rest: Readonly<Record<string, unknown>>;
 }
 
@@ -38,9 +38,9 @@ export interface Frame {
   name: string;
   /** How long the picture stays, seconds. */
   airTime_s: number;
-  /** Moment at which the picture must begin, seconds; null: as soon as the robots are there. */
+  /** Show time at which the picture must begin, seconds; null: as soon as the robots are there. */
   at_s: number | null;
-  /** Travel time to the frame, seconds; null: as fast as is safe. */
+  /** Wanted travel time to the frame, seconds; null: as fast as is safe. */
   transition_s: number | null;
   easing: Easing;
   /** How the picture before drives to the frame; null: the planner's shortest drive. */
@@ -69,7 +69,7 @@ export interface Pixel {
 }
 
 let lastKey = 0;
-/** A key that no frame has had. */
+/** A key that no frame of this page has had. */
 export const newKey = () => ++lastKey;
 
 /** Distance of centres at which two robots touch, metres. */
@@ -86,7 +86,7 @@ export const EMPTY_STAGE: Stage = {
   rest: {},
 };
 
-/** `count` pixels in rows along the back edge, 0.1 m apart, as a rehearsal's robots stand. */
+/** `count` pixels, ids from 0, in rows 0.1 m apart. The first row is 0.2 m from the edge with the largest y. */
 export function backRows(stage: Stage, count: number, color: Rgb): Pixel[] {
   const [step, margin] = [0.1, 0.05];
   const perRow = Math.max(1, Math.floor((stage.width_m - 2 * margin) / step + 1e-9) + 1);
@@ -122,7 +122,7 @@ export function newFrame(name: string, pixels: readonly Pixel[]): Frame {
 export const middleFrame = ({ frames }: Show): Frame | undefined =>
   frames[Math.floor(frames.length / 2)];
 
-/** A new show: one frame with all robots at the back edge, warm white. */
+/** A new show: one frame with `count` pixels at `backRows`, warm white. */
 export function newShow(name: string, count: number, stage: Stage = EMPTY_STAGE): Show {
   const frames = [newFrame('Start', backRows(stage, count, 0xffc878))];
   return { name, stage, identity: 'any', music: null, frames, rest: {} };

@@ -5,7 +5,7 @@ import { LINK_CHARS_MAX, packShow, unpackShow } from './showLink';
 
 const DOCUMENT = writeShow(newShow('Grüße an alle', 30));
 
-/** Any text as a link packs it. */
+/** Packs any text in the way that `packShow` packs a document. */
 const packText = async (text: string) => {
   const packed = new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'));
   return Buffer.from(await new Response(packed).arrayBuffer()).toString('base64url');

@@ -3,7 +3,7 @@ import { readShow } from './json';
 import { list, object } from './jsonFields';
 import type { Show } from './show';
 
-/** Most characters of a link: chat programs and proxies cut longer ones. */
+/** Most characters of a link, or of the packed show in it: chat programs and proxies cut longer ones. */
 export const LINK_CHARS_MAX = 32_000;
 
 /** What a link holds: the document as it was packed, and the show that the screen reads in it. */
@@ -12,7 +12,7 @@ export interface LinkedShow {
   show: Show;
 }
 
-/** Why a link cannot be opened, for people. */
+/** What people read if a link is no packed text. */
 const DAMAGED = 'The link is damaged or was cut off. Ask for it again, or for the show as a file.';
 const TOO_LARGE = 'The link holds more than a show may. Ask for the show as a file.';
 const NO_SHOW = 'The link holds no show. Ask for it again, or for the show as a file.';
@@ -28,8 +28,8 @@ export async function packShow(document: unknown): Promise<string> {
 }
 
 /**
- * The show that a link holds. Links come from anywhere: reading stops after `bytes_max` bytes of JSON, however small they
- * were packed. Rejects with a sentence for people.
+ * The show that a link holds. Rejects with a sentence for people. Links come from anywhere, and a short one may hold
+ * much: reading stops after `bytes_max` bytes of JSON.
  */
 export async function unpackShow(packed: string, bytes_max = FILE_BYTES_MAX): Promise<LinkedShow> {
   if (packed.length > LINK_CHARS_MAX) throw new Error(TOO_LARGE);

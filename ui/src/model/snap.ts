@@ -6,6 +6,7 @@ export interface Guide {
   at: number;
 }
 
+/** The drag after snapping, stage metres, and the lines that it snapped to. */
 export interface Snapped {
   dx: number;
   dy: number;
@@ -17,11 +18,11 @@ export interface SnapOptions {
   grid_m: number;
   /** Largest distance that snaps, metres. */
   reach_m: number;
-  /** Positions that the dragged pixels align with. */
+  /** Positions that the dragged position aligns with, stage metres. */
   neighbours: readonly Point[];
 }
 
-/** Snaps a drag of `lead` by (dx, dy): to neighbours' lines first, then to the grid; each axis on its own. */
+/** Snaps a drag of `lead` by (dx, dy), metres, each axis on its own: to a neighbour's coordinate, else to the grid. */
 export function snap(lead: Point, dx: number, dy: number, options: SnapOptions): Snapped {
   const x = snapAxis(lead.x + dx, 'x', options);
   const y = snapAxis(lead.y + dy, 'y', options);

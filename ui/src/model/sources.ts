@@ -3,7 +3,7 @@ export interface FrameSource {
   kind: SourceKind;
   /** Hash of the file behind it; null: the settings say everything. */
   asset: string | null;
-  /** Seed of everything random in placing its pixels. */
+  /** Seed of all random choices in placing its pixels. */
   seed: number;
   /** Where its picture lies on the floor; null: the whole floor. */
   box: FloorBox | null;

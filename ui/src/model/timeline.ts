@@ -12,11 +12,11 @@ export interface Segment {
   until_s: number;
 }
 
-/** The planned times of a show; a drive without a plan takes no time. */
+/** The times of a show with the drives of a plan; a drive without a plan takes no time. */
 export const timelineOf = (show: Show, plan: Plan | null): Segment[] =>
   segmentsOf(show, (_, index) => plan?.transitions[index]?.duration_s ?? 0);
 
-/** The times of a show whose drives take that long, seconds. */
+/** The times of a show in which the drive to each frame takes `drive_s` seconds. */
 export function segmentsOf(
   show: Show,
   drive_s: (frame: Frame, index: number) => number,
@@ -33,12 +33,15 @@ export function segmentsOf(
 export const totalOf = (timeline: readonly Segment[]) =>
   timeline[timeline.length - 1]?.until_s ?? 0;
 
-/** The segment at a moment; the last one at and after the end. */
+/** The segment at a moment; the last one at and after the end, the first one before the start; null: none. */
 export function segmentAt(timeline: readonly Segment[], time_s: number): Segment | null {
   return timeline.find((s) => time_s < s.until_s) ?? timeline[timeline.length - 1] ?? null;
 }
 
-/** The moment that a preview begins with: the moment on the stage, else when the frame on the stage is reached. */
+/**
+ * The moment that a preview begins with, seconds from the start of the show: `time_s`, the moment on the stage. Without
+ * one, or at its end: when frame `frame` is reached, but 0 for the first and the last frame.
+ */
 export function previewFrom(
   timeline: readonly Segment[],
   frame: number,
@@ -50,7 +53,7 @@ export function previewFrom(
   return isEdge ? 0 : (timeline[frame]?.shownFrom_s ?? 0);
 }
 
-/** Planned positions and colours of the lights at a moment. */
+/** Planned positions, stage metres, and colours at a moment; without paths the pixels of the frame at that moment. */
 export function dotsAt(
   show: Show,
   plan: Plan,

@@ -16,7 +16,7 @@ export interface PlannedDrive {
 /** Planned drives by the key of the frame that they lead to. */
 export type PlannedDrives = ReadonlyMap<number, PlannedDrive>;
 
-/** The drives of a plan to the frames of the show that it was made for. */
+/** The drives of a plan; `show` is the show that it was made for. Empty without a plan. */
 export function plannedDrives(show: Show, plan: Plan | null): PlannedDrives {
   const drives = new Map<number, PlannedDrive>();
   for (const { to, duration_s, least_s } of plan?.transitions ?? []) {
@@ -39,7 +39,10 @@ export interface Block {
   go: 'waits' | 'repeats' | null;
 }
 
-/** Travel time to a frame, seconds. What the frame asks for counts at once, and the plan follows; 0 without a plan. */
+/**
+ * Travel time to a frame, seconds; 0 without a plan. A travel time that the frame has asked for since the plan was made
+ * counts at once, but not below the shortest one.
+ */
 function driveOf({ transition_s }: Frame, planned: PlannedDrive | undefined): number {
   if (!planned) return 0;
   const asked_s = transition_s ?? 0;
@@ -70,7 +73,10 @@ export function blocksOf(show: Show, drives: PlannedDrives): Block[] {
 /** From the start of the first drive to the start of show time, seconds. */
 export const leadIn_s = (blocks: readonly Block[]) => -(blocks[0]?.driveFrom_s ?? 0);
 
-/** The moment of show time on the stage, seconds: of a preview, which counts from the first drive, or of a frame. */
+/**
+ * The show time on the stage, seconds. `preview_s`: the moment of the preview, seconds from the start of the first
+ * drive; null: there is no preview, and the start of frame `frame`'s air time counts.
+ */
 export const momentOnStage = (blocks: readonly Block[], frame: number, preview_s: number | null) =>
   preview_s === null ? (blocks[frame]?.shownFrom_s ?? 0) : preview_s - leadIn_s(blocks);
 
@@ -84,7 +90,7 @@ const SAME_S = 0.005;
 
 const hundredths = (seconds: number) => Math.round(seconds * 100) / 100;
 
-/** The show with another travel time of a frame; at the least one, the robots drive as fast as is safe. */
+/** The show with another travel time of a frame. At or below the shortest one, the frame asks for the fastest drive. */
 function withTravel(show: Show, index: number, block: Block | undefined, travel_s: number): Show {
   if (!block || block.least_s === null) return show;
   const isLeast = travel_s <= block.least_s + SAME_S;
@@ -95,7 +101,7 @@ function withTravel(show: Show, index: number, block: Block | undefined, travel_
 const withAir = (show: Show, index: number, air_s: number): Show =>
   setFrames(show, [index], { airTime_s: Math.max(0, Math.min(LONGEST_S, hundredths(air_s))) });
 
-/** Gives all these frames that much more travel time or air time, seconds; `blocks` are those of `show`. */
+/** Gives all these frames `by_s` seconds more travel time or air time, within limits; `blocks` are those of `show`. */
 export function stretchBlocks(
   show: Show,
   blocks: readonly Block[],
@@ -114,8 +120,8 @@ export function stretchBlocks(
 }
 
 /**
- * The show in which the edge of a block is at a moment, as far as it goes. All chosen frames change alike; those before the
- * dragged one move its edge too, so each changes by its share.
+ * The show in which an edge of block `dragged` is at `to_s`, as far as limits allow. If the block is chosen, all
+ * chosen frames change by the same time. The changes up to the dragged one add up to the shift of the edge.
  */
 export function dragBlockEdge(
   show: Show,
@@ -137,7 +143,7 @@ export function dragBlockEdge(
 export const isFastest = ({ driveFrom_s, shownFrom_s, least_s }: Block) =>
   least_s !== null && shownFrom_s - driveFrom_s <= least_s + SAME_S;
 
-/** Indices of the blocks that a stretch of time touches. */
+/** Indices of the blocks that overlap the time between two moments, in either order. */
 export const blocksBetween = (blocks: readonly Block[], a_s: number, b_s: number): number[] => {
   const [from_s, to_s] = [Math.min(a_s, b_s), Math.max(a_s, b_s)];
   return blocks.flatMap((b, i) => (b.driveFrom_s < to_s && b.until_s > from_s ? [i] : []));

@@ -3,11 +3,11 @@ import type { Show } from './show';
 import type { Block } from './timelineBlocks';
 import { LATEST_S } from './timelineMarks';
 
-/** When a layer shines, seconds of show time; null: its frames are gone. */
+/** When a layer shines, seconds of show time. */
 export interface LayerBar {
   from_s: number;
   to_s: number;
-  /** Whether its ends can be moved: a layer over the whole show has none. */
+  /** Whether its ends can be moved: not for a layer over the whole show. */
   hasEnds: boolean;
 }
 
@@ -20,6 +20,7 @@ const beginOf = (block: Block, { when }: Layer) =>
 const endOf = (block: Block, { when }: Layer) =>
   when.of === 'frames' && when.phase === 'transition' ? block.shownFrom_s : block.until_s;
 
+/** From the layer's begin in its first frame to its end in the last; null: the show lacks one of these frames. */
 export function layerBar(show: Show, blocks: readonly Block[], layer: Layer): LayerBar | null {
   const { when } = layer;
   if (when.of === 'seconds') return { from_s: when.from_s, to_s: when.to_s, hasEnds: true };
@@ -39,8 +40,8 @@ export type LayerPart = 'from' | 'to' | 'whole';
 const hundredths = (seconds: number) => Math.round(seconds * 100) / 100;
 
 /**
- * The show with a layer's end at a moment, or with the whole layer beginning there. A layer of frames goes to the frame
- * whose edge is nearest, and moves as a whole by its first frame.
+ * The show with an end of a layer at `to_s` of show time, or with the whole layer beginning at it. A layer of frames
+ * goes to the frame with the nearest edge. A layer over the whole show stays.
  */
 export function moveLayerPart(
   show: Show,
@@ -81,7 +82,7 @@ export function moveLayerPart(
   return setLayerFrames(show, index, next, when.phase);
 }
 
-/** Moves an end of a layer, or the whole of it, by a step: of seconds, or of whole frames in that direction. */
+/** Moves an end of a layer, or the whole of it: by `by_s` seconds, or for a layer of frames by one frame that way. */
 export function stepLayerPart(
   show: Show,
   blocks: readonly Block[],
@@ -102,7 +103,7 @@ export function stepLayerPart(
   return setLayerFrames(show, index, moved(range, part, frame, blocks.length), when.phase);
 }
 
-/** The frames of a layer after a part of it went to a frame. */
+/** First and last frame of a layer after `part` went to `frame`; the whole layer stays within `count` frames. */
 function moved(
   [first, last]: readonly [number, number],
   part: LayerPart,

@@ -18,7 +18,7 @@ export interface Section {
   rest: Readonly<Record<string, unknown>>;
 }
 
-/** Latest moment that a show may name, seconds. */
+/** Latest moment that a show may name, seconds: a day. */
 export const LATEST_S = 86_400;
 /** Shortest section, seconds. */
 const SHORTEST_S = 0.1;
@@ -64,7 +64,7 @@ function readSection(value: unknown): Section {
 const withMarkers = MARKERS.with;
 const withSections = SECTIONS.with;
 
-/** The nearest moment that a show may name, to a hundredth of a second. */
+/** The nearest moment between `from_s` and `to_s`, rounded to a hundredth of a second unless it is one of them. */
 const moment = (seconds: number, from_s = 0, to_s = LATEST_S) =>
   Math.max(from_s, Math.min(to_s, Math.round(seconds * 100) / 100));
 
@@ -93,7 +93,7 @@ export const moveMarker = (show: Show, index: number, at_s: number): Show =>
 /** A part of a section that is moved: an end, or the whole of it. */
 export type SectionPart = 'from' | 'to' | 'whole';
 
-/** The show with a section's end at a moment, or with the whole section beginning there. */
+/** The show with an end of a section at `to_s` of show time, or with the whole section beginning at it. */
 export function moveSection(show: Show, index: number, part: SectionPart, to_s: number): Show {
   return changeSection(show, index, (section) => {
     const { from_s, to_s: end_s } = section;

@@ -7,7 +7,7 @@ import { markersOf, sectionsOf } from './timelineMarks';
 export type Dragged =
   { what: 'block'; index: number } | { what: 'marker' | 'section' | 'layer'; index: number };
 
-/** Moments that a drag snaps to: edges of blocks, marks and layers, and `more`, such as the playhead and beats. */
+/** Moments that a drag snaps to: edges of blocks, marks and layers of seconds, and `more`, such as beats. Show time. */
 export function snapMoments(
   show: Show,
   blocks: readonly Block[],
@@ -16,7 +16,7 @@ export function snapMoments(
 ): number[] {
   const isOther = (what: Dragged['what']) => (_: unknown, index: number) =>
     dragged.what !== what || dragged.index !== index;
-  // Blocks after the dragged edge move with it.
+  // The dragged block and the blocks after it move with the edge.
   const standing = dragged.what === 'block' ? blocks.slice(0, dragged.index) : blocks;
   return [
     ...standing.flatMap((block) => [block.shownFrom_s, block.until_s]),

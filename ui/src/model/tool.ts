@@ -13,16 +13,16 @@ export interface Touch {
   again: boolean;
 }
 
-/** A small state machine: it takes a snapshot when a gesture begins, and recomputes from the snapshot. */
+/** A small state machine for one gesture at a time, from `down` to `up`. */
 export interface Tool {
   down(editor: Editor, touch: Touch): void;
   move(editor: Editor, touch: Touch): void;
   up(editor: Editor, touch: Touch): void;
-  /** Cancels the gesture and restores the snapshot; answers whether there was a gesture. */
+  /** Cancels the gesture and takes its changes back; answers whether there was a gesture. */
   cancel(editor: Editor): boolean;
 }
 
-/** The pixel under a pointer: the nearest within its own radius and the reach. */
+/** Id of the pixel nearest to a pointer, within the robot's radius or the pointer's reach, whichever is larger. */
 export function pixelAt(editor: Editor, touch: Touch): number | null {
   const radius = editor.state.get().show.stage.radius_m;
   let [best, distance] = [null as number | null, Math.max(radius, touch.reach_m)];

@@ -7,10 +7,13 @@ import type { Tool } from './tool';
 /** A handle of the box around the selection: a corner, a side, or the knob that turns the box. */
 export type Handle = { kind: 'turn' } | { kind: 'scale'; sx: -1 | 0 | 1; sy: -1 | 0 | 1 };
 
-/** A smaller box is not scaled along that side, metres. */
+/** A box with a side shorter than this is not scaled along that side, metres. */
 const SIDE_MIN = 1e-4;
 
-/** Turns or scales the selection. Shift: steps of 15°, or the same scale on both axes; Alt: about the centre. */
+/**
+ * Turns or scales the selection. Turning: about the centre; Shift: in steps of 15°. Scaling: about the opposite side,
+ * with Alt about the centre. A corner scales both axes alike unless Ctrl is held; Shift makes a side do so too.
+ */
 export function createTransformTool(handle: Handle): Tool {
   let from: { at: Point; box: Box; places: ReadonlyMap<number, Point> } | null = null;
 

@@ -6,7 +6,7 @@ export interface AudioOut extends SoundOut {
   close(): void;
 }
 
-/** Decodes music as it is, for hearing. */
+/** Decodes a file of music and opens a sound device for it. Rejects if the browser cannot decode the file. */
 export async function createAudioOut(bytes: Uint8Array<ArrayBuffer>): Promise<AudioOut> {
   const context = new AudioContext({ latencyHint: 'interactive' });
   const buffer = await context.decodeAudioData(bytes.slice().buffer);
@@ -16,7 +16,7 @@ export async function createAudioOut(bytes: Uint8Array<ArrayBuffer>): Promise<Au
     made_s: () => context.currentTime,
     heard_s(now_ms) {
       const { contextTime, performanceTime } = context.getOutputTimestamp();
-      // Both are 0 until the device runs.
+      // Both are 0 or missing until the device runs.
       if (!contextTime || !performanceTime) return null;
       return contextTime + (now_ms - performanceTime) / 1000;
     },

@@ -1,27 +1,27 @@
 /** Music as one channel, for looking at and finding beats. */
 export interface DecodedMusic {
-  /** 1 is full scale. */
+  /** Samples of the mean of all channels, -1 to 1. */
   samples: Float32Array<ArrayBuffer>;
   /** Samples a second. */
   rate_Hz: number;
 }
 
-/** Enough for beats: what is above 11 kHz tells nothing of them. */
+/** Samples a second of decoded music, hertz: enough for beats, which sound above 11 kHz does not help to find. */
 const RATE_HZ = 22_050;
 
 /** Longest music that is taken, seconds: an hour is 318 MB here, and longer than any show. */
 const LONGEST_S = 3600;
 
-/** Music longer than this is told to need much memory, seconds. */
+/** For music longer than this, seconds, the user is told that it needs much memory. */
 export const LONG_S = 1200;
 
 /** Largest file that is taken, bytes: a show with its files is at most 64 MiB. */
 export const MUSIC_BYTES_MAX = 40 * 2 ** 20;
 
-/** How long the browser may take to say how long music lasts, milliseconds. */
+/** Longest wait for the browser to say how long music lasts, milliseconds; then it counts as unknown. */
 const LENGTH_MAX_MS = 10_000;
 
-/** Decodes music. Throws an error whose message says what to do. */
+/** Decodes music to one channel. Throws an error with a message that says what to do. */
 export async function decodeMusic(bytes: Uint8Array<ArrayBuffer>): Promise<DecodedMusic> {
   const lasts_s = await lengthOf(bytes);
   if (lasts_s !== null && lasts_s > LONGEST_S)
@@ -33,7 +33,7 @@ export async function decodeMusic(bytes: Uint8Array<ArrayBuffer>): Promise<Decod
     length: 1,
     sampleRate: RATE_HZ,
   });
-  // Decoding takes the bytes away, and they are needed for saving.
+  // Decoding detaches the bytes that it gets, and these are needed for saving: it gets a copy.
   const buffer = await context.decodeAudioData(bytes.slice().buffer).catch(() => {
     throw new Error(
       'This browser cannot play it: it is damaged, or of an unknown kind. Save it as MP3, OGG, WAV or FLAC.',
@@ -72,10 +72,10 @@ export function oneChannel(
   return mono;
 }
 
-/** Peaks of a waveform, in a second. */
+/** Peaks of a waveform for each second. */
 export const PEAKS_PER_S = 100;
 
-/** The loudest sample of each hundredth of a second, as a share of the loudest of all. */
+/** The loudest sample of each hundredth of a second, as a share of the loudest of all; 0 if all are silent. */
 export function peaksOf({ samples, rate_Hz }: DecodedMusic): Float32Array {
   const peaks = new Float32Array(Math.ceil((samples.length / rate_Hz) * PEAKS_PER_S));
   let loudest = 0;

@@ -4,7 +4,7 @@ import { musicOf } from '../model/beats';
 import type { Show } from '../model/show';
 import { peaksOf, type DecodedMusic } from './decode';
 
-/** Music that can be looked at. */
+/** A piece of music as a waveform shows it. */
 export interface SeenMusic {
   hash: string;
   lasts_s: number;
@@ -12,7 +12,7 @@ export interface SeenMusic {
   peaks: Float32Array;
 }
 
-/** The music of the show that is edited. */
+/** State of the edited show's music; `none`: the show has no music, or not its file. */
 export type MusicState =
   | { of: 'none' }
   | { of: 'loading' }
@@ -21,15 +21,15 @@ export type MusicState =
 
 export interface Music {
   state: Readable<MusicState>;
-  /** Loads the music of this show, if that is another one than before. */
+  /** Loads the music of this show, if its file is another one than before. */
   follow(show: Show): void;
-  /** Decodes the show's music once more: what beats are found in takes much memory, and is not kept. */
+  /** Decodes the show's music once more: decoded music takes much memory and is not kept. Rejects without music. */
   decode(): Promise<DecodedMusic>;
-  /** Music that was decoded when its file was taken. */
+  /** Takes music that is decoded already, so that `follow` need not load it. */
   add(hash: string, decoded: DecodedMusic): void;
 }
 
-/** Decodes with `decode` what `fileOf` finds by its hash. */
+/** `fileOf` gives a file by its hash; `decode` decodes it. */
 export function createMusic(
   fileOf: (hash: string) => Promise<Uint8Array<ArrayBuffer>>,
   decode: (bytes: Uint8Array<ArrayBuffer>) => Promise<DecodedMusic>,

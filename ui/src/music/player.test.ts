@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { createPlayer, type SoundOut } from './player';
 
-/** A device whose clock runs `fast` and is heard 50 ms after it is made. */
+/** A sound device with a clock that runs `fast` times as fast as the page's; sound is heard 50 ms after it is made. */
 function device(fast = 1) {
   let at_ms = 0;
   let sound: { at_s: number; from_s: number; rate: number } | null = null;
@@ -32,13 +32,13 @@ function device(fast = 1) {
     out,
     starts: () => starts,
     to: (ms: number) => (at_ms = ms),
-    /** Position of the file that comes out of the loudspeaker; null: silence. */
+    /** Position of the file that is heard now, seconds; null: silence. */
     position_s: () =>
       sound && heard() >= sound.at_s ? sound.from_s + (heard() - sound.at_s) * sound.rate : null,
   };
 }
 
-/** Plays a show whose position is given for each moment, seconds; answers the errors once sound is heard, seconds. */
+/** Plays a show at `position` for each moment, seconds; answers how far the heard sound is ahead of it, seconds. */
 function played(position: (at_s: number) => number | null, lasts_s: number, fast = 1) {
   const { out, to, position_s, starts } = device(fast);
   const player = createPlayer(out, 1000);

@@ -1,47 +1,47 @@
-/** Where sound comes out. Its clock is that of its device, seconds. */
+/** A sound device. Its clock counts seconds. */
 export interface SoundOut {
-  /** The moment of its clock that is heard at this moment of the page; null: it is not known yet. */
+  /** The moment of the device's clock that is heard at `now_ms` of the page's clock; null: not known yet. */
   heard_s(now_ms: number): number | null;
-  /** The moment of its clock that is made now: what starts must not start before it. */
+  /** The moment of the device's clock for which sound is made now: a start before it comes too late. */
   made_s(): number;
-  /** Plays from a position of the file, beginning at a moment of the clock. */
+  /** Plays from position `from_s` of the file, beginning at `at_s` of the device's clock. */
   start(at_s: number, from_s: number): Playing;
 }
 
 /** Sound that was started. */
 export interface Playing {
-  /** 1: as it is; larger: faster. */
+  /** 1: the file's own speed; larger: faster. */
   setRate(rate: number): void;
   stop(): void;
 }
 
-/** Plays music so that its position is the one of the show. */
+/** Plays music so that its heard position follows that of the show. */
 export interface Player {
-  /** Says where the show is, seconds of the music; null: it stands. To be called ten times a second or more. */
+  /** Says where the show is now, seconds of the music; null: it stands, and sound stops. Call it ten times a second. */
   follow(position_s: number | null, now_ms: number): void;
-  /** How far the sound that is heard is ahead of the show when `follow` was called last, seconds; null: none is heard. */
+  /** How far the sound was ahead of the show at the last `follow`, seconds; null: not compared since it began. */
   ahead_s(): number | null;
   stop(): void;
 }
 
-/** Sound that is off by less is left alone, seconds. */
+/** Sound that is off by less than this plays at its own speed, seconds. */
 const NEAR_S = 0.003;
 
-/** Sound that is off by more begins anew at the right place, seconds: half of what people notice between sound and light. */
+/** Sound that is off by more than this begins anew at the right place, seconds: half of what people notice. */
 const FAR_S = 0.03;
 
 /** Sound is made faster or slower by at most this share: the change of pitch is too small to be heard. */
 const RATE_MAX = 0.005;
 
-/** Time in which an error is to be gone, seconds. */
+/** Time in which a small error is to be gone, seconds; larger values correct more slowly. */
 const GONE_IN_S = 2;
 
-/** Least time between starting and hearing, seconds: what starts late is cut off. */
+/** Least time from a start to when it is heard, seconds: the begin of sound that starts too late is cut off. */
 const LEAD_S = 0.1;
 
 export function createPlayer(out: SoundOut, lasts_s: number): Player {
   let playing: Playing | null = null;
-  /** At this moment of the device's clock, this position of the file is played, and then at this rate. */
+  /** At `clock_s` of the device's clock, `position_s` of the file is heard, and from then on at `rate`. */
   let since = { clock_s: 0, position_s: 0, rate: 1 };
   let ahead: number | null = null;
   const positionAt = (clock_s: number) => since.position_s + (clock_s - since.clock_s) * since.rate;
@@ -53,7 +53,7 @@ export function createPlayer(out: SoundOut, lasts_s: number): Player {
   const begin = (position_s: number, heard_s: number) => {
     stop();
     const lead_s = Math.max(LEAD_S, out.made_s() - heard_s + LEAD_S / 2);
-    // Before the music begins, it waits for that; what has ended does not start.
+    // Before second 0 of the file, the start waits until then. After the end of the file, nothing starts.
     const [from_s, late_s] = [Math.max(0, position_s + lead_s), Math.max(0, -position_s - lead_s)];
     if (from_s >= lasts_s) return;
     since = { clock_s: heard_s + lead_s + late_s, position_s: from_s, rate: 1 };

@@ -2,9 +2,9 @@ import { messageOf } from '../base/errors';
 import { createAudioOut, type AudioOut } from './audioOut';
 import { createPlayer, type Player } from './player';
 
-/** Music that is heard on this screen. */
+/** Plays one file of music at a time on this screen. */
 export interface Sounding {
-  /** Gets music ready to be heard; to be called in a press of the user. Throws an error for people. */
+  /** Gets a file ready to be heard, in place of another. Call it in a press of the user. Throws a text for people. */
   open(hash: string): Promise<void>;
   /** As `Player.follow`; silent while nothing is open. */
   follow(position_s: number | null, now_ms: number): void;

@@ -5,12 +5,12 @@ interface Props {
   label: string;
   /** Radians. */
   value: number;
-  /** Largest angle either way, degrees. */
+  /** Largest angle in either direction, degrees. */
   most: number;
   onChange: (radians: number) => void;
 }
 
-/** An angle in degrees. */
+/** A field for an angle, shown in degrees. */
 export function AngleField({ label, value, most, onChange }: Props) {
   return (
     <NumberField

@@ -1,7 +1,7 @@
 import { useLayoutEffect, useRef, type ReactNode } from 'react';
 import styles from './page.module.css';
 
-/** The section under the floor. It publishes its height, because notices stay above it. */
+/** The section below the stage. It writes its height into `--bottom` of the page, because notices stay above it. */
 export function Bottom({ label, children }: { label: string; children: ReactNode }) {
   const section = useRef<HTMLElement>(null);
   useLayoutEffect(() => {

@@ -7,12 +7,12 @@ import styles from './Gate.module.css';
 interface Props {
   /** The least role that may use the controls. */
   needs: Role;
-  /** What they do, as in "An operator can …". */
+  /** What the controls do, to follow "An operator can". */
   act: string;
   children: ReactNode;
 }
 
-/** Why this person may not do something; null: nothing is in the way. */
+/** Why the role of this person is not enough for something; null: it is enough. */
 export function useWhyNot(needs: Role, act: string): string | null {
   return whyNot(useStore(useSession().role), needs, act);
 }

@@ -1,6 +1,6 @@
 import styles from './GoMark.module.css';
 
-/** Marks a frame after which the show waits for GO, or to which it repeats until then. */
+/** Marks a frame after which the show waits for GO, or repeats frames until GO. */
 export const GoMark = ({ go }: { go: 'waits' | 'repeats' }) =>
   go === 'waits' ? (
     <em className={styles.go} title="Waits for GO">

@@ -4,7 +4,7 @@ import type { ReactNode } from 'react';
 interface Props extends ActionIconProps {
   /** The action, shown as a tooltip. */
   label: string;
-  /** Its name for screen readers, if it differs from the label. */
+  /** The button's name for screen readers, if it differs from the label. */
   name?: string;
   position?: TooltipProps['position'];
   onClick: () => void;

@@ -2,12 +2,12 @@ import { Button, Stack } from '@mantine/core';
 import type { Issue } from '../api/types.gen';
 import styles from './IssueList.module.css';
 
-/** Most issues in the list; the first ones are fixed first. */
+/** Most issues in the list; the number of further ones is written below it. */
 const SHOWN_MAX = 30;
 
 const WORDS = { note: 'Note', warning: 'Warning', error: 'Error' } as const;
 
-/** The issues of a show, each with a button that shows its frame. */
+/** The issues of a show; one about a frame has a button that shows the frame. */
 export function IssueList(props: { issues: readonly Issue[]; onFrame: (index: number) => void }) {
   const { issues, onFrame } = props;
   if (issues.length === 0) return null;

@@ -8,7 +8,7 @@ interface Props {
   /** Metres; null: an empty field. */
   value: number | null;
   onChange: (metres: number) => void;
-  /** Metres; no place is farther from the floor's centre than the usual limit. */
+  /** Least value, metres; by default -1000. `max` in the same way, by default 1000. */
   min?: number;
   max?: number;
   disabled?: boolean;
@@ -17,7 +17,7 @@ interface Props {
 /** Largest coordinate of the protocol, metres. */
 const FAR_M = 1000;
 
-/** A length in the unit of this screen. */
+/** A field for a length, shown in the unit of this screen. */
 export function LengthInput({
   label,
   value,

@@ -7,19 +7,19 @@ import styles from './NumberField.module.css';
 interface Props extends NumberRule {
   label: string;
   description?: string;
-  /** null: an empty field. */
+  /** The present value; null: an empty field. */
   value: number | null;
-  /** Most decimals shown. */
+  /** Most decimals shown; 0 by default. */
   digits?: number;
-  /** Step of the arrows. */
+  /** Step of the arrows; 1 by default. */
   step?: number;
   disabled?: boolean;
   onChange: (value: number) => void;
 }
 
 /**
- * A field for a number. The value changes with Enter, with an arrow key, or when the field loses the focus.
- * What cannot be taken stays in the field with the reason, and the value stays what it was; Escape brings it back.
+ * A field for a number. The value changes with Enter, by a step, or when the field loses the focus. Text that is no
+ * number within the limits stays in the field with the reason, and the value stays; Escape shows the value again.
  */
 export function NumberField(props: Props) {
   const { label, description, value, digits = 0, step = 1, disabled, onChange } = props;
@@ -69,13 +69,13 @@ export function NumberField(props: Props) {
   );
 }
 
-/** Arrows for the pointer; the keyboard has its own keys. */
+/** Arrows for the pointer; on the keyboard, the arrow keys of the field do the same. */
 function Steps({ onStep }: { onStep: (up: boolean) => void }) {
   const arrow = (up: boolean) => (
     <UnstyledButton
       tabIndex={-1}
       aria-hidden
-      // The field keeps the focus, because the step starts from the typed number.
+      // The field keeps the focus: leaving it would take the typed number before the step.
       onMouseDown={(event) => event.preventDefault()}
       onClick={() => onStep(up)}
     >

@@ -2,7 +2,7 @@ import { Button } from '@mantine/core';
 import type { RunEntry } from '../api/types.gen';
 import { reportLinks, runTitle } from '../session/runs';
 
-/** Reads the report of a run in a tab of its own, or saves it as a file. `named`: their names say of which run. */
+/** Buttons that open a run's report in a new tab and save it as a file. `named`: screen readers hear of which run. */
 export function ReportButtons({ run, named }: { run: RunEntry; named?: boolean }) {
   const { read, save } = reportLinks(run);
   const name = (verb: string) =>

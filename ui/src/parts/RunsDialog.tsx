@@ -9,7 +9,7 @@ import { useSession } from '../session/session';
 import { ReportButtons } from './ReportButtons';
 import styles from './RunsDialog.module.css';
 
-/** The recorded runs: how each ended, and its report. */
+/** A dialog with the recorded runs: how each ended, and its report if it has one. */
 export function RunsDialog({ onClose }: { onClose: () => void }) {
   const { live } = useSession();
   const isIdle = useStore(live.playback, (p) => p.phase === 'ready' || p.phase === 'idle');

@@ -10,14 +10,15 @@ interface Picture {
 }
 
 interface Props {
-  /** Names the version of the show; the same version has the same picture. */
+  /** Identifies the show and its version; the same text has the same picture. */
   version: string;
   /** Fetches the show's document. */
   load: () => Promise<unknown>;
 }
 
-/** Pictures by version; bounded, because a picture takes a few hundred bytes per pixel. */
+/** Pictures by version, kept for the next time. */
 const pictures = new Map<string, Picture>();
+/** Most pictures that are kept; above that all are dropped, because a picture takes a few hundred bytes per pixel. */
 const PICTURES_MAX = 100;
 
 async function pictureOf(load: () => Promise<unknown>): Promise<Picture | null> {
@@ -26,7 +27,7 @@ async function pictureOf(load: () => Promise<unknown>): Promise<Picture | null> 
   return frame ? { frame, stage: show.stage } : null;
 }
 
-/** Picture of a show, fetched when it scrolls into view. */
+/** Picture of a show (its middle frame), fetched when it scrolls into view; empty until then, and if that fails. */
 export function ShowThumbnail({ version, load }: Props) {
   const [picture, setPicture] = useState(pictures.get(version) ?? null);
   const fetching = useRef(load);

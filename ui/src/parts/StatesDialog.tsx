@@ -20,7 +20,7 @@ interface Props {
   onClose: () => void;
 }
 
-/** The saved states of a show: any of them is looked at and restored. */
+/** A dialog with the saved states of a show, each of which can be looked at and restored. */
 export function StatesDialog({ name, onRestored, onClose }: Props) {
   const session = useSession();
   const [states, setStates] = useState<readonly ShowState[]>();
@@ -59,7 +59,7 @@ export function StatesDialog({ name, onRestored, onClose }: Props) {
 interface StateProps {
   name: string;
   state: ShowState;
-  /** Whether all its frames are shown. */
+  /** Whether the frames of the state are shown. */
   open: boolean;
   onLook: () => void;
   onRestore: (number: number, when: string) => Promise<void>;

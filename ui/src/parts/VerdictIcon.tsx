@@ -7,7 +7,7 @@ const ICONS = {
   none: IconInfoCircle,
 } as const;
 
-/** The sign of a verdict, which says with it what its colour says. */
+/** An icon for the tone of a verdict, because colour must not be the only sign. */
 export function VerdictIcon({ tone, size }: { tone: keyof typeof ICONS; size: number }) {
   const Icon = ICONS[tone];
   return <Icon size={size} aria-hidden />;

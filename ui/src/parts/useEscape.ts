@@ -2,8 +2,8 @@ import { getHotkeyHandler } from '@mantine/hooks';
 import { useEffect } from 'react';
 
 /**
- * Does it on Escape, or on Shift and Escape, before anything else hears the key: a tip that is shown takes every Escape
- * for itself.
+ * Calls `act` on Escape, or on Shift and Escape, before elements of the page hear the key. A tooltip that is shown
+ * would take the key for itself. Without `act` nothing happens.
  */
 export function useEscape(key: 'Escape' | 'shift+Escape', act?: (event: KeyboardEvent) => void) {
   useEffect(() => {

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { isTaken, type Focused } from './useKeys';
 
-/** An element that is itself of these selectors. */
+/** An element that matches the selectors in `is`, without parents. */
 const element = (tagName: string, is: string[], type?: string): Focused => ({
   tagName,
   type,

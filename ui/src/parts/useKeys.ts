@@ -2,7 +2,7 @@ import { useHotkeys } from '@mantine/hooks';
 import { isFocusByKeyboard } from './focusOrigin';
 import { useEscape } from './useEscape';
 
-/** Inputs without text. */
+/** Types of inputs into which no text is typed. */
 const WORDLESS = ['radio', 'checkbox', 'button', 'submit', 'file'];
 /** Elements that Space presses when the focus came by keyboard. */
 const PRESSED = 'button, summary, input, [role="tab"], [role="option"], [role="button"]';
@@ -13,8 +13,9 @@ export type Focused = Pick<HTMLElement, 'tagName' | 'isContentEditable' | 'close
 };
 
 /**
- * Whether a key belongs to what has the focus: text to fields, arrows to choices and sliders. Space presses a button only
- * where the focus ring shows: after a click it does what the view says, and does not repeat the click.
+ * Whether a key belongs to the focused element: all keys to text fields and menus, arrows, Home and End to inputs,
+ * sliders and tabs. Space belongs to a button only if the focus came by keyboard (`byKeyboard`): after a click it does
+ * what the view says. Null: nothing has the focus.
  */
 export function isTaken(target: Focused | null, key: string, byKeyboard: boolean): boolean {
   if (!target) return false;
@@ -28,21 +29,21 @@ export function isTaken(target: Focused | null, key: string, byKeyboard: boolean
   return moves && (input !== null || target.closest('[role="slider"], [role="tab"]') !== null);
 }
 
-/** Browsers press a button when Space is released; this stops them where the view handled the key. */
+/** Browsers press the focused button when Space is released: this keeps them from it, once. */
 function keepFromButton(event: KeyboardEvent) {
   event.target?.addEventListener('keyup', (up) => up.preventDefault(), { once: true });
 }
 
-/** Enter follows links, too. */
+/** Elements that Enter presses or follows. */
 const FOLLOWED = `${PRESSED}, a[href]`;
 
-/** Whether Enter presses the focused button or link, as it always does. */
+/** Whether the key is an Enter, without Ctrl, that presses the focused button or follows the focused link. */
 const isPress = ({ key, ctrlKey, metaKey, target }: KeyboardEvent) =>
   key === 'Enter' && !ctrlKey && !metaKey && (target as HTMLElement | null)?.closest(FOLLOWED);
 
 type Key = readonly [string, (event: KeyboardEvent) => void];
 
-/** Keys of a view with their actions. */
+/** `act`, but not for keys that the focused element or an open dialog takes. */
 const ruled = (act: Key[1]) => (event: KeyboardEvent) => {
   if (isTaken(event.target as HTMLElement | null, event.key, isFocusByKeyboard())) return;
   if (isPress(event)) return;
@@ -58,7 +59,7 @@ const ruled = (act: Key[1]) => (event: KeyboardEvent) => {
   act(event);
 };
 
-/** Keys of a view: silent while a dialog is open or a text field has the focus. */
+/** Keys of a view. They do nothing while a dialog is open or the focused element takes the key. */
 export function useKeys(keys: readonly Key[]) {
   const hotkeys = keys.filter(([key]) => key !== 'Escape');
   useHotkeys(

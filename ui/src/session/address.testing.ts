@@ -1,6 +1,6 @@
 import { vi } from 'vitest';
 
-/** A browser's address that begins with that hash, in place of the missing one. */
+/** Replaces `location`, `window` and `history` by an address with `hash`; `go` changes it as a user does. */
 export function stubAddress(hash: string) {
   const address = { hash };
   let listeners: (() => void)[] = [];

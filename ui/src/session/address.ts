@@ -2,7 +2,7 @@ import { useSyncExternalStore } from 'react';
 
 export type View = 'live' | 'edit' | 'new' | 'audience' | 'shared';
 
-/** The address of a show that the address itself holds; the packed show follows. */
+/** Beginning of an address that contains a whole show; the packed show follows it. */
 const SHARED = '#/shared/';
 
 /** Views by the beginning of their address; every other address is the live view's. */
@@ -16,7 +16,7 @@ const VIEWS: readonly (readonly [start: string, view: View])[] = [
 /** The address of the editor; the name of the show that it edits may follow. */
 const EDIT = '#/edit';
 
-/** The browser tells of a change later; these hear of this page's own changes at once. */
+/** Called at once when this page changes the address. The browser's `hashchange` event calls them too, but later. */
 const listeners = new Set<() => void>();
 
 const subscribe = (listener: () => void) => {
@@ -44,7 +44,7 @@ export const addressOfView = (view: View) => `#/${view}`;
 
 export const goTo = (view: View) => change(addressOfView(view));
 
-/** The show that the address names: the one that this screen edits. Null: it names none. */
+/** Name of the show that follows `#/edit/` in the address; null: none. */
 export function showInAddress(): string | null {
   const path = location.hash.startsWith(`${EDIT}/`) ? location.hash.slice(EDIT.length + 1) : '';
   if (path === '') return null;
@@ -59,16 +59,16 @@ export function showInAddress(): string | null {
 /** The address of the editor of a show. */
 export const addressOf = (show: string) => `${EDIT}/${encodeURIComponent(show)}`;
 
-/** Names the show that the editor shows in the address, in place of the entry of the browser's history. */
+/** Writes the editor's address of a show over the current entry of the browser's history. Calls no listener. */
 export const nameInAddress = (show: string) => history.replaceState(null, '', addressOf(show));
 
-/** Calls the listener when the address changes; returns a function that ends this. */
+/** Calls the listener when the address changes, but not for `nameInAddress`; returns a function that ends this. */
 export const followAddress = subscribe;
 
-/** Edits another show on this screen only. */
+/** Goes to the editor of a show, on this screen only. */
 export const editShow = (name: string) => change(addressOf(name));
 
-/** The address that holds a packed show itself, of this installation. */
+/** The address on this server that contains a packed show. */
 export const sharedAddress = (packed: string) =>
   `${location.origin}${location.pathname}${SHARED}${packed}`;
 

@@ -4,8 +4,9 @@ import { viewNow } from './address';
 import { isHeard } from './incidents';
 import { createChoice } from './preferences';
 
-/** Two notes, hertz, and the length of each, seconds. */
+/** The two notes of the alarm, in the order in which they sound, hertz. */
 const NOTES_HZ = [660, 880];
+/** Length of each note, seconds. */
 const NOTE_S = 0.14;
 
 const isSound = (text: string | null): text is 'on' | 'off' => text === 'on' || text === 'off';
@@ -18,8 +19,8 @@ export const useSound = () => useStore(sound) === 'on';
 export const setSound = (on: boolean) => sound.set(on ? 'on' : 'off');
 
 /**
- * Makes a sound for each new incident that has to be looked at, but for those that were there before this page. The
- * audience hears none.
+ * Plays one alarm when the list gains unread incidents that are not mere information. The first list is silent. The
+ * audience view and a screen with its sound switched off play none.
  */
 export function soundAlarms(incidents: Store<readonly Incident[]>) {
   let last: number | null = null;
@@ -36,7 +37,7 @@ export function soundAlarms(incidents: Store<readonly Incident[]>) {
   });
 }
 
-/** Browsers allow a sound only after the first press on the page: before that, nothing is heard. */
+/** Plays the two notes. Browsers allow a sound only after the first press on the page: until then, nothing is heard. */
 function play(audio: AudioContext) {
   if (audio.state === 'suspended') void audio.resume().catch(() => undefined);
   const volume = audio.createGain();

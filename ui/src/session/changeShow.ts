@@ -7,7 +7,10 @@ import { lookedAt } from './fitness';
 import { notify } from './notices';
 import type { Session } from './session';
 
-/** Changes the show that the user looks at: in this screen's editor if it edits the show, else in the library. */
+/**
+ * Changes the show that the user looks at: in this screen's editor if it edits the show, else in the library. Without a
+ * show, nothing happens. A failed save is shown as a notice.
+ */
 export async function changeShow(session: Session, label: string, change: (show: Show) => Show) {
   const { name } = lookedAt(session);
   const editing = session.editing.get();

@@ -4,7 +4,7 @@ import { fleetSize, pinsOf, sparesOf } from '../model/commands';
 import type { Show } from '../model/show';
 import { chargeText, nameOf } from './robotWords';
 
-/** `good`: fine; `wait`: not known yet; `warn`: playable with a risk; `bad`: the show or part of it cannot be played. */
+/** `good`: fine; `wait`: not known yet; `warn`: playable with a risk; `bad`: at least part of the show cannot play. */
 export type Verdict = 'good' | 'wait' | 'warn' | 'bad';
 
 /** One check before robots move. */
@@ -25,7 +25,7 @@ export interface Situation {
   robots: Pick<Robots, 'x'> | null;
 }
 
-/** Charge below which a battery may not last for a show, percent. */
+/** Charge below which a battery counts as low, percent. */
 export const CHARGE_LOW = 20;
 
 /** Robots in these states do not drive. */
@@ -33,7 +33,7 @@ const UNFIT = ['cut', 'faulty'];
 
 export const canDrive = (row: FleetRow) => row.presence === 'active' && !UNFIT.includes(row.status);
 
-/** All checks before a start, in the order in which problems are fixed. */
+/** The checks before a start, in the order in which to fix problems. Without a show: one check that says so. */
 export function checklistOf(s: Situation): Check[] {
   if (!s.show) return [check('plan', 'Show', 'bad', 'No show is open: open one first.')];
   return [
@@ -46,11 +46,11 @@ export function checklistOf(s: Situation): Check[] {
   ];
 }
 
-/** Whether the show can start without a question. A plan that is still being made is no obstacle: the start waits for it. */
+/** Whether the show can start without a question: a check that waits is no obstacle, because the start waits too. */
 export const isReady = (checks: readonly Check[]) =>
   checks.every(({ verdict }) => verdict === 'good' || verdict === 'wait');
 
-/** Whether the show can start without the missing robots: only plan and broker prevent that. */
+/** Whether the show can start although robots, positions or pinned robots are missing: no other check may be bad. */
 export const canGoOn = (checks: readonly Check[]) =>
   checks.every(
     (c) => c.verdict !== 'bad' || c.name === 'robots' || c.name === 'places' || c.name === 'pins',
@@ -125,7 +125,7 @@ function placesCheck(show: Show, { rows, robots }: Situation): Check {
   );
 }
 
-/** Only where the show pins pixels. */
+/** The check of pinned robots; empty where the show pins no pixel. */
 function pinsCheck(show: Show, rows: readonly FleetRow[]): Check[] {
   const pins = [...pinsOf(show)];
   if (pins.length === 0) return [];

@@ -14,7 +14,10 @@ const WHY = {
 export const copyText = ({ name, copy_of }: Pick<ShowEntry, 'name' | 'copy_of'>) =>
   `${WHY[copy_of ?? 'saved']}Saved as "${name}".`;
 
-/** Shows that a read-only show was saved as a copy, which takes the place of the original for the robots and this screen. */
+/**
+ * Call after a save of show `from` that became a copy. Tells the user. If `from` is open on the server, opens the copy
+ * there; else, if this screen edits `from`, edits the copy. An action that waits for `from` also accepts the copy.
+ */
 export function followCopy({ live, waiting, ask }: Context, from: string, copy: ShowEntry) {
   notify('kept', copyText(copy));
   waiting.update((pending) =>

@@ -7,20 +7,20 @@ import { openShow } from './openShow';
 import type { Session } from './session';
 import { freeName, nameFromFile } from './upload';
 
-/** Number of robots of a new show when no robot reports. */
+/** Number of robots of a new show when the fleet table is empty. */
 export const ROBOTS_DEFAULT = 30;
 
 /** What a new show has of its own. */
 interface Begun {
-  /** Its name, if that is free. */
+  /** Its name; a number is added if the name is taken. */
   title?: string;
   stage?: Stage;
   frames?: readonly Frame[];
 }
 
 /**
- * Creates a show and opens it on every screen; without frames, with a pixel for every robot that reports. Answers its name;
- * null: there is none, and a notice said why.
+ * Creates a show in the library and opens it on every screen. Without `frames` it gets a pixel for each row of the
+ * fleet table, or `ROBOTS_DEFAULT` if there is no row. Answers its name; null: it could not be created or opened.
  */
 export async function createShowInLibrary(
   session: Session,

@@ -22,7 +22,10 @@ export async function downloadShow(show: unknown, name: string, format: Format) 
   download(file, `${name}${format.endings[0]}`);
 }
 
-/** Saves a show of the library as a file of a format. A show that is only partly understood is downloaded whole. */
+/**
+ * Saves a show of the library as a file of a format. In our own format, the file of a read-only show is given
+ * unchanged, because it may hold more than the document.
+ */
 export async function downloadFromLibrary({ name, read_only }: ShowEntry, format: Format) {
   if (read_only !== null && format.name === OWN_FORMAT.name) {
     const file = await getFile(name);

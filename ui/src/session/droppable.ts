@@ -2,7 +2,7 @@
 export interface Dropped {
   files: readonly File[];
   text: string;
-  /** Name of the show that it is for, which may not be open yet; null: the show that is open. */
+  /** Name of the show that it is for, which may not be open yet; null: the show in the editor. */
   into: string | null;
 }
 

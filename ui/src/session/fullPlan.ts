@@ -2,14 +2,14 @@ import { getPlan } from '../api/http';
 import type { Plan } from '../api/types.gen';
 import { createStore, type Readable, type Store } from '../base/store';
 
-/** The plan of the open show with its paths, fetched only while a component shows the paths. */
+/** The plan of the open show with its paths, fetched only between `follow` and the end of the last `follow`. */
 export interface FullPlan {
   plan: Store<Plan | null>;
   /** Keeps the plan up to date until the returned function is called. */
   follow(): () => void;
 }
 
-/** `brief`: the plan of the show without paths; null while that show is not open. */
+/** `brief`: the plan without paths, as the server announces it; null: none. */
 export function createFullPlan(brief: Readable<Plan | null>): FullPlan {
   const plan = createStore<Plan | null>(null);
   let followers = 0;

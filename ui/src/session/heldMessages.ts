@@ -1,20 +1,20 @@
 import type { ToScreen } from '../api/types.gen';
 
-/** Messages of which a page shows the newest alone: to draw the others costs time, and a hidden page draws nothing. */
+/** Types of messages of which only the newest counts. A hidden page draws nothing, so most of them can wait. */
 const NEWEST_COUNTS = ['fleet', 'state'] as const;
 type Held = Extract<ToScreen, { type: (typeof NEWEST_COUNTS)[number] }>;
 
 const isHeld = (message: ToScreen): message is Held =>
   NEWEST_COUNTS.some((type) => type === message.type);
 
-/** A hidden page is brought up to date this often, milliseconds: its text and its name stay near the truth. */
+/** A hidden page still shows one message of each such type this often, milliseconds: text and title stay true. */
 const SHOWN_EVERY_MS = 10_000;
 
 /** Holds back what a hidden page need not show. */
 export interface HeldMessages {
-  /** Whether the message is held back. */
+  /** Takes a message; answers whether it is held back. A message that is not must be shown now. */
   hold(message: ToScreen, now_ms: number): boolean;
-  /** The messages that were held back, to be shown now. */
+  /** Hands out the messages held back, at most one of each type, and forgets them. */
   release(): ToScreen[];
 }
 

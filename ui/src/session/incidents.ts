@@ -10,11 +10,11 @@ export const unread = (incidents: readonly Incident[]): Incident[] =>
 export const earlier = (incidents: readonly Incident[]): Incident[] =>
   incidents.filter((one) => one.read).reverse();
 
-/** Incidents for which a sound is made: what has to be looked at, and newer than the last one heard. */
+/** Whether an incident makes a sound: it is unread, not mere information, and its id is above `last`. */
 export const isHeard = (incident: Incident, last: number): boolean =>
   incident.id > last && !incident.read && incident.tone !== 'information';
 
-/** A robot of an incident on the floor. */
+/** A robot that an incident names, and where it is on the floor, stage metres. */
 export interface Callout extends Point {
   name: string;
 }
@@ -26,10 +26,10 @@ const CALLOUTS_MAX = 12;
 export const holding = (incidents: readonly Incident[]): Incident[] =>
   unread(incidents).filter((one) => !one.over);
 
-/** Incidents and fleet table for which rows were found last: both change rarely, and callouts are drawn in every frame. */
+/** Last result of `rowsOf`, with what it was found for: both change rarely, and the screen asks at every redraw. */
 let found: { incidents: readonly Incident[]; fleet: Fleet; rows: readonly number[] } | null = null;
 
-/** Rows of the robots of incidents that hold. */
+/** Indices in the fleet table of the robots that unread incidents which still hold name. */
 function rowsOf(incidents: readonly Incident[], fleet: Fleet): readonly number[] {
   if (found?.incidents === incidents && found.fleet === fleet) return found.rows;
   const named = new Set(holding(incidents).flatMap((one) => one.robots));
@@ -38,7 +38,10 @@ function rowsOf(incidents: readonly Incident[], fleet: Fleet): readonly number[]
   return rows;
 }
 
-/** Where the robots of incidents that hold are, as far as that is known. */
+/**
+ * The robots that unread incidents which still hold name, in the fleet table's order. Robots without a known place are
+ * left out, and so is what exceeds `CALLOUTS_MAX`.
+ */
 export function calloutsOf(
   incidents: readonly Incident[],
   fleet: Fleet,

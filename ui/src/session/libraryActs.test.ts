@@ -10,7 +10,7 @@ vi.mock('./notices', () => ({
   notifyWithUndo: (_: string, act: () => unknown) => (undo = act),
 }));
 
-/** A server with one show, of whose file the document is only a part; the bodies of what is saved, by path. */
+/** Replaces `fetch` by a server with the show `Future`; its file has more than its document. Saved bodies by path. */
 function serve() {
   stubAddress('#/live');
   const saved = new Map<string, unknown>();

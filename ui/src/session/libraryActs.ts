@@ -6,7 +6,7 @@ import { openShow } from './openShow';
 import type { Session } from './session';
 import { freeName } from './upload';
 
-/** Runs a request, and shows the server's message if it refuses. */
+/** Runs a request and answers whether it succeeded. A notice shows the message of a failure. */
 export const attempt = (act: () => Promise<unknown>) =>
   act().then(
     () => true,
@@ -16,7 +16,7 @@ export const attempt = (act: () => Promise<unknown>) =>
     },
   );
 
-/** Copies what the screen knows of a show under a name that is free; answers that name. */
+/** Saves a copy of a show's document under `wanted`, with a number if that name is taken; answers the copy's name. */
 export async function copyShow(from: string, wanted: string): Promise<string> {
   const { document } = await getShow(from);
   const taken = (await listShows()).map((entry) => entry.name);
@@ -34,7 +34,7 @@ export async function renameShow(session: Session, from: string, to: string) {
   await deleteShow(from, etag, to);
 }
 
-/** Deletes a show, and offers to restore it. */
+/** Deletes a show, and offers for a few seconds to put its file back. `changed` is called after each. */
 export async function deleteWithUndo(name: string, changed: () => void) {
   const { etag } = await getShow(name);
   const file = await getFile(name);

@@ -27,13 +27,13 @@ export interface Opened {
   show: Show | null;
 }
 
-/** The state that the server sent, unchanged: this screen adds nothing of its own. */
+/** What the server sent last. Without a connection, the phase of `playback` is set to `idle`. */
 export interface Live {
   link: Store<LinkState>;
   hello: Store<Hello | null>;
   opened: Store<Opened>;
   plan: Store<Plan | null>;
-  /** The last finished plan of this show, shown while the next one is being made. */
+  /** The last finished plan of the open show, shown while the next one is being made; null: none yet. */
   settled: Store<Plan | null>;
   fleet: Store<Fleet>;
   broker: Store<Broker>;
@@ -41,14 +41,14 @@ export interface Live {
   /** Speed of the show clock; 1: real time. */
   pace: Store<number>;
   log: Store<readonly LogLine[]>;
-  /** What went wrong, oldest first. */
+  /** Incidents, the oldest first. */
   incidents: Store<readonly Incident[]>;
   track: Track;
   /** Where the show is on its timeline. */
   showClock: ShowClock;
 }
 
-/** Lines of the log kept on screen. */
+/** Most lines of the log that the page keeps. */
 const LOG_MAX = 500;
 
 const NO_PLAYBACK: Playback = {
@@ -103,7 +103,7 @@ export function createLive(): Live {
   };
 }
 
-/** Handles one message of the server. */
+/** Stores what one message of the server says. Of a state message, `hearState` takes pace and show time. */
 export function receive(live: Live, message: ToScreen) {
   switch (message.type) {
     case 'hello':
@@ -151,19 +151,19 @@ function finishedPlan({ plan }: Live, revision: number): Plan | null {
   return here?.revision === revision && !here.planning ? here : null;
 }
 
-/** Takes what is heard of a state, whether the page is seen or not. */
+/** Takes pace and show time from a state message, also while the page is hidden. */
 function hearState({ pace, showClock }: Live, state: Extract<ToScreen, { type: 'state' }>) {
   pace.set(state.pace);
   showClock.hear(state.at_ms, state.show_time, performance.now());
 }
 
-/** The log with a new line, or with a line that replaces its earlier version. */
+/** The log with the line in place of the line with its id, else at the end. Above `LOG_MAX`, the oldest line goes. */
 function withLine(lines: readonly LogLine[], line: LogLine): readonly LogLine[] {
   const before = lines.findLastIndex(({ id }) => id === line.id);
   return before >= 0 ? lines.with(before, line) : [...lines.slice(-LOG_MAX + 1), line];
 }
 
-/** Sets a value unless it equals the value before. */
+/** Sets a value unless its JSON equals that of the value before. */
 function keep<T>(store: Store<T>, next: T) {
   if (JSON.stringify(store.get()) !== JSON.stringify(next)) store.set(next);
 }

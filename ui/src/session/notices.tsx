@@ -2,21 +2,23 @@ import { messageOf } from '../base/errors';
 import { Button, Group } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 
+/** Time after which a short notice closes by itself, milliseconds. */
 const SHORT_MS = 4000;
+/** Time after which a long notice closes by itself, milliseconds. */
 const LONG_MS = 12_000;
 
-/** Colour, and the time until the notice closes. */
+/** For each tone the colour, and the time until the notice closes, milliseconds; false: it stays. */
 const TONES = {
   good: ['good', SHORT_MS],
   info: ['gray', SHORT_MS],
   /** Shown longer, because the outcome differs from what the user expects. */
   kept: ['gray', LONG_MS],
   error: ['bad', LONG_MS],
-  /** Stays until it is closed: something was lost, of which nothing else on the screen tells. */
+  /** Stays until the user closes it: something was lost, and nothing else on the screen says so. */
   warning: ['care', false],
 } as const;
 
-/** Shows a notice in the corner for a few seconds; its message may have several lines. */
+/** Shows a notice in the corner for as long as `TONES` says; its message may have several lines. */
 export function notify(tone: keyof typeof TONES, message: string) {
   const [color, autoClose] = TONES[tone];
   notifications.show({

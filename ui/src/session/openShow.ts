@@ -3,7 +3,7 @@ import type { Session } from './session';
 
 type Context = Pick<Session, 'live' | 'ask'>;
 
-/** Opens a show for all screens, and in this screen's editor if that is what it shows. Answers whether it is open here. */
+/** Opens a show on every screen; in the edit view, this screen's editor changes to it. Answers whether it is open. */
 export async function openShow({ live, ask }: Context, name: string): Promise<boolean> {
   const { revision } = live.opened.get();
   if (!(await ask({ do: 'open', name })).ok) return false;
@@ -13,10 +13,10 @@ export async function openShow({ live, ask }: Context, name: string): Promise<bo
   return true;
 }
 
-/** The server announces a show right after it has opened it; another screen may open a third one in between. */
+/** Longest wait for the announcement of a show, milliseconds. It never comes if another screen opens another show. */
 const ANNOUNCED_MS = 3_000;
 
-/** Ends when the server has announced that show anew, when the connection is lost, or after a while. */
+/** Resolves when `name` is open with a revision other than `before`, without a connection, or after `ANNOUNCED_MS`. */
 const isAnnounced = ({ opened, link }: Session['live'], name: string, before: number) =>
   new Promise<void>((resolve) => {
     const look = () => {

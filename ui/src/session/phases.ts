@@ -1,4 +1,4 @@
 import type { Phase } from '../api/types.gen';
 
-/** Whether robots drive, or stand in the middle of a show. */
+/** True in every phase except `idle` and `ready`: a show or a drive is under way, even if paused. */
 export const isRunning = (phase: Phase) => phase !== 'idle' && phase !== 'ready';

@@ -5,9 +5,9 @@ import { withRest } from '../model/frameIds';
 import type { Show } from '../model/show';
 import { nameOf } from './robotWords';
 
-/** A robot no farther than this from a starting place stands in it, metres: it fits under one robot. */
+/** A robot no farther than this from a starting place counts as standing in it, metres. */
 export const IN_PLACE_M = 0.05;
-/** Most pairs of robots and places that are looked at for those that are away; more would stop the page. */
+/** Most pairs of a robot elsewhere and a free place among which goals are searched; more would stop the page. */
 const PAIRS_MAX = 250_000;
 
 const dist = (a: Point, b: Point) => Math.hypot(a.x - b.x, a.y - b.y);
@@ -22,22 +22,25 @@ export interface Placed {
 export interface Comparison {
   /** Robots in a starting place. */
   inPlace: readonly Placed[];
-  /** Robots elsewhere, the nearest free place and its distance, metres; null: there is none, or there are too many. */
+  /**
+   * Robots elsewhere, the farthest first. `goal`: the free place given to the robot, stage metres, `off_m` metres away.
+   * Both are null without a place left for it, or with more than `PAIRS_MAX` pairs.
+   */
   away: readonly (Placed & { goal: Point | null; off_m: number | null })[];
-  /** Starting places without a robot in or going to them. */
+  /** Starting places that are no robot's place or goal. */
   free: readonly Point[];
-  /** Robots whose place is not known. */
+  /** Names of robots without a known place. */
   unknown: readonly string[];
 }
 
-/** The starting places of a planned show; null: there is no plan of its first drive. */
+/** The starting places of a planned show, stage metres; null: the plan has no paths of the drive to the first frame. */
 export function startsOf(plan: Plan | null): readonly Point[] | null {
   const first = plan?.transitions[0];
   if (!first || first.from !== null || first.paths.length === 0) return null;
   return first.paths.map(({ start: [x, y] }) => ({ x, y }));
 }
 
-/** The robots that report, where they stand, and those without a known place. */
+/** Of the robots that report now: those with a known place, and the names of the others. */
 export function placedRobots(fleet: Fleet, robots: Robots | null): [Placed[], string[]] {
   const placed: Placed[] = [];
   const unknown: string[] = [];
@@ -50,7 +53,10 @@ export function placedRobots(fleet: Fleet, robots: Robots | null): [Placed[], st
   return [placed, unknown];
 }
 
-/** Compares places: each robot stands in at most one, the nearest first. */
+/**
+ * Matches robots to starting places: within `IN_PLACE_M` first, then the robots elsewhere to the free places. In both
+ * rounds the nearest pairs come first, and a robot gets at most one place.
+ */
 export function comparePlaces(
   starts: readonly Point[],
   robots: readonly Placed[],
@@ -71,7 +77,7 @@ export function comparePlaces(
 
 type Pair = readonly [off_m: number, robot: number, place: number];
 
-/** Robots and places no farther apart than that, the nearest first. */
+/** Pairs of a robot and a place no farther apart than `most_m`, metres, the nearest first. */
 function pairsOf(robots: readonly Placed[], places: readonly Point[], most_m: number): Pair[] {
   const isBounded = Number.isFinite(most_m);
   const cell = ({ x, y }: Point) =>
@@ -94,7 +100,10 @@ function pairsOf(robots: readonly Placed[], places: readonly Point[], most_m: nu
   return pairs.filter(([off_m]) => off_m <= most_m).sort((a, b) => a[0] - b[0]);
 }
 
-/** Gives each robot at most one place in the order of the pairs: robots with one, robots without, and places left. */
+/**
+ * Gives each robot at most one place, in the order of the pairs, and adds it to `goals`. Answers the robots with a
+ * place, the robots without, and the places left.
+ */
 function matched(
   robots: readonly Placed[],
   places: readonly Point[],
@@ -127,7 +136,7 @@ export function placesVerdict({ inPlace, away, free, unknown }: Comparison): str
   return `${parts.join(', ')}.`;
 }
 
-/** The show with these starting places, to a millimetre. */
+/** The show with the places of these robots as starting places, rounded to a millimetre. */
 export const withStarts = (show: Show, robots: readonly Placed[]): Show =>
   withRest(
     show,

@@ -1,6 +1,6 @@
 import type { Plan } from '../api/types.gen';
 
-/** A plan for tests: of a show that may be played, without drives. */
+/** A plan for tests: it is ok, without drives and issues. `planning`: it is still being made. */
 export const planOf = (revision: number, planning = false): Plan => ({
   revision,
   planning,

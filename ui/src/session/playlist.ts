@@ -8,7 +8,7 @@ const LOOK_MS = 2_000;
 /** Time between two changes of a countdown, milliseconds. */
 const TICK_MS = 1_000;
 
-/** Changes that an answer may be behind. */
+/** An answer with a revision lower by less than this is ignored as old; with a lower one, the server has restarted. */
 const BEHIND_MAX = 1_000;
 
 /** The playlist of the server, and when this screen asked for it. */
@@ -18,13 +18,13 @@ export interface SeenPlaylist {
   seen_ms: number;
 }
 
-/** The playlist, looked at every few seconds; null: not known yet. The function takes an answer of the server over. */
+/** The playlist, asked for every `LOOK_MS`; null: not known yet. The function takes a newer answer of the server. */
 export function usePlaylist(): [SeenPlaylist | null, (state: PlaylistState) => void] {
   const [seen, setSeen] = useState<SeenPlaylist | null>(null);
   const take = useCallback((state: PlaylistState) => {
     const seen_ms = Date.now();
-    // A look that was under way during a change brings the playlist as it was before. A server that was started again
-    // counts from elsewhere.
+    // A request that was under way during a change brings the playlist as it was before the change. A server that was
+    // started again counts from another number.
     setSeen((before) => {
       const behind = (before?.state.revision ?? 0) - state.revision;
       return behind > 0 && behind < BEHIND_MAX ? before : { state, seen_ms };
@@ -50,7 +50,7 @@ export function usePlaylist(): [SeenPlaylist | null, (state: PlaylistState) => v
   return [seen, take];
 }
 
-/** Seconds until the next start, counted down between two looks; null: none. */
+/** Seconds until the next start, at least 0, counted down between two answers of the server; null: none. */
 export function useCountdown(seen: SeenPlaylist | null): number | null {
   const [now_ms, setNow] = useState(Date.now);
   useEffect(() => {
@@ -102,7 +102,7 @@ export function resultText({ result, time }: PlaylistToday): string {
   return `${RESULTS[result]} ${time}`;
 }
 
-/** What starts next, and in how long. */
+/** What plays now, else what starts next and in how long; `left_s`: seconds until then. */
 export function nextText({ state }: SeenPlaylist, left_s: number | null): string {
   const playing = state.today.findIndex(({ result }) => result === 'playing');
   if (playing >= 0) return `${state.entries[playing]?.show ?? 'A show'} plays now.`;
@@ -112,7 +112,7 @@ export function nextText({ state }: SeenPlaylist, left_s: number | null): string
   return `Next: ${show} at ${time}, in ${longText(left_s ?? 0)}.`;
 }
 
-/** `0:42`, `12:34`, `3 h 20 min`, `2 days`. */
+/** A duration of `seconds`, such as `0:42`, `12:34`, `3 h 20 min` or `2 days`. */
 function longText(seconds: number): string {
   if (seconds < 3_600) return clockText(seconds);
   const minutes = Math.round(seconds / 60);

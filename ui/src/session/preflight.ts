@@ -1,7 +1,7 @@
 import type { PreflightState } from '../api/types.gen';
 import { capitalised } from '../base/words';
 
-/** What robots do in a preflight, and in which round. */
+/** What robots do in a preflight, and in which round if it has several. */
 export function preflightDoing({ doing, round, rounds }: PreflightState): string {
   const what = capitalised(doing ?? '');
   return rounds > 1 ? `${what} (round ${round} of ${rounds})` : what;

@@ -1,13 +1,13 @@
 import type { FleetRow } from '../api/types.gen';
 import { ageText } from '../base/time';
 
-/** The part of a robot's id that identifies the robot on screen. */
+/** A robot's id as screens show it: whole up to 12 characters, else its first 8. */
 export const shortId = (id: string) => (id.length > 12 ? id.slice(0, 8) : id);
 
-/** What people call a robot: the name that they gave it, else what identifies it. */
+/** What people call a robot: the name that they gave it, else its short id. */
 export const nameOf = (row: Pick<FleetRow, 'id' | 'called'>) => row.called ?? shortId(row.id);
 
-/** A text in which robots are called what people call them. */
+/** The text with the short ids of `robots` replaced by the names that people gave them; an id without a name stays. */
 export const withNames = (text: string, robots: readonly string[], rows: readonly FleetRow[]) =>
   robots.reduce((said, id) => {
     const called = rows.find((row) => row.id === id)?.called;
@@ -32,7 +32,7 @@ const PRESENCES = { active: 'here', stale: 'silent', gone: 'gone' } as const;
 /** The word for a robot's presence. */
 export const presenceText = (row: Pick<FleetRow, 'presence'>) => PRESENCES[row.presence];
 
-/** Charge, and the minutes that it lasts once they are known. */
+/** Charge in percent, and the minutes that it lasts once they are known; `–`: the charge is unknown. */
 export const chargeText = (row: FleetRow) => {
   if (row.battery === null) return '–';
   const left = row.battery_left_s === null ? '' : `, ${Math.floor(row.battery_left_s / 60)} min`;

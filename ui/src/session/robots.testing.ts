@@ -1,6 +1,6 @@
 import { ROBOT_COLUMNS, type FleetRow, type Robots } from '../api/types.gen';
 
-/** Robots for tests, from plain lists: those that are not given are unknown, lights red, all idle. */
+/** Robots for tests, from plain lists. Without a list: place 0, 0, red, status 0; all other numbers NaN. */
 export function robotsOf(lists: Partial<Record<keyof Robots, number[]>>): Robots {
   const count = Math.max(1, ...Object.values(lists).map((list) => list.length));
   const otherwise: Partial<Record<keyof Robots, number>> = {
@@ -17,7 +17,7 @@ export function robotsOf(lists: Partial<Record<keyof Robots, number[]>>): Robots
   ) as unknown as Robots;
 }
 
-/** A simulated robot that can drive, but for what is given. */
+/** A row of the fleet table for tests: a simulated robot that can drive, changed by `over`. */
 export const robotRow = (over: Partial<FleetRow> = {}): FleetRow => ({
   id: 'a1b2c3d4',
   status: 'idle',

@@ -5,10 +5,13 @@ import { createChoice } from './preferences';
 
 const isText = (text: string | null): text is string => text !== null;
 
-/** Start of the run whose report this screen needs no offer of any more, milliseconds since 1970. */
+/** Start of the run with the report that the user declined, as text, milliseconds since 1970; empty: none. */
 export const dismissedRun = createChoice('lightbots-run-dismissed', '', isText);
 
-/** The run that a report is offered of: the last show that has ended, unless the offer was dismissed. */
+/**
+ * The first run of kind `show` in `runs`. Null: there is none, it has not ended, has no report, or began at
+ * `dismissed` (milliseconds since 1970, as text).
+ */
 export function offeredRun(runs: readonly RunEntry[], dismissed: string): RunEntry | null {
   const last = runs.find((run) => run.kind === 'show');
   if (!last?.has_report || last.ended_ms === null) return null;
@@ -20,13 +23,13 @@ const KINDS = { show: '', frame: 'Drive to a frame of ', home: 'Home in ' } as c
 /** What a run was of. */
 export const runTitle = ({ kind, show }: RunEntry) => `${KINDS[kind]}${show.trim() || 'a show'}`;
 
-/** When a run began, and how long it took. */
+/** When a run began, and how long it took if it has ended. */
 export function runTimes({ began_ms, ended_ms }: RunEntry): string {
   const began = new Date(began_ms).toLocaleString();
   return ended_ms === null ? began : `${began} · ${clockText((ended_ms - began_ms) / 1000)}`;
 }
 
-/** How a run ended. `isOn`: it has not. */
+/** How a run ended. `isOn`: it is still on. */
 export const runOutcome = ({ outcome }: RunEntry, isOn: boolean) =>
   outcome ?? (isOn ? 'It is on.' : 'Its program ended before it did.');
 

@@ -20,11 +20,14 @@ export interface Session {
   /** The show that the editor of this screen shows. */
   shown: Readable<Shown>;
   link: Link;
-  /** Sends an operation to the server. A refusal is shown to the user, with the operation that the server offers instead. */
+  /**
+   * Sends an operation to the server. A refusal is shown: as `offer` if the server offers another operation, else as a
+   * notice. `abort` and `stop_all` also drop the waiting action.
+   */
   ask(operation: Operation): Promise<Answer>;
-  /** A refusal with the operation that the server offers instead. */
+  /** A refusal with the operation that the server offers instead; null: none. */
   offer: Store<{ reason: string; choice: Choice } | null>;
-  /** The frame chosen in the strip: Play starts there, and robots are driven there. */
+  /** The frame chosen in the strip, counted from 0: Play starts at it, and robots are driven to it. */
   frame: Store<number>;
   /** The editor of this screen; null before the first edit. */
   editing: Store<{ name: string; editor: Editor; saver: Saver } | null>;
@@ -38,9 +41,9 @@ export interface Session {
   driveAsked: Store<DriveGoal | null>;
   /** The frame that the operator wants to go to, and that waits for a confirmation; null: none. */
   jumpAsked: Store<number | null>;
-  /** The robot that was looked for last, anew with each search; null: none. */
+  /** The robot that was searched for last, a new object with each search; null: none. */
   found: Store<{ robot: string } | null>;
-  /** The role of this person; an operator where sign-in is not asked for. */
+  /** The role of this person; `operator` until it is known, and where sign-in is not asked for. */
   role: Readable<Role>;
   /** Whether the checklist is shown. */
   checking: Store<boolean>;
@@ -48,7 +51,7 @@ export interface Session {
   drafts: Drafts;
   /** Drafts of closed pages that were not restored. */
   orphans: Store<readonly LeftDraft[]>;
-  /** The draft of `orphans` that the editor restores next. */
+  /** The draft of `orphans` that the editor restores next; null: none. */
   restoring: Store<LeftDraft | null>;
 }
 
@@ -65,7 +68,7 @@ const randomName = () => Math.random().toString(36).slice(2);
 /** Period of the search for drafts of closed pages, milliseconds. */
 const LOOK_MS = 15_000;
 
-/** The name of this tab, which stays the same when the page is loaded again. */
+/** The name of this tab, which stays the same when the page is loaded again. Without storage it is new each time. */
 function tabName(): string {
   const fresh = randomName();
   try {

@@ -2,19 +2,19 @@ import type { ShowTime } from '../api/types.gen';
 
 /** Where the show is on its timeline now, on this screen's clock. */
 export interface ShowClock {
-  /** The server said where the show was at a moment of its clock. */
+  /** The server said where the show was at `at_ms` of its clock. `now_ms`: this screen's clock at that message. */
   hear(at_ms: number, time: ShowTime | null, now_ms: number): void;
-  /** Seconds from the start of the first frame's air time; null: the show stands, or none is played. */
+  /** Seconds from the start of the first frame's air time; null: the show stands, none is played, or silence. */
   position_s(now_ms: number): number | null;
 }
 
-/** Messages of this long tell how the two clocks differ, milliseconds: clocks drift by less than a millisecond then. */
+/** The clocks' offset is taken from messages of this time, milliseconds. They drift by less than 1 ms in it. */
 const WINDOW_MS = 10_000;
-/** A show that the server has not spoken of for longer stands, milliseconds: the connection is lost. */
+/** After this time without a message, milliseconds, the connection counts as lost and no position is known. */
 const SILENT_MS = 2_000;
 
 export function createShowClock(): ShowClock {
-  /** Messages of the last seconds: when they came, and how late they seemed. */
+  /** Messages of the last `WINDOW_MS`: when each came, and this screen's clock minus the server's in it. */
   let offsets: { came_ms: number; offset_ms: number }[] = [];
   let last: { at_ms: number; time: ShowTime | null; came_ms: number } | null = null;
   return {
@@ -27,7 +27,7 @@ export function createShowClock(): ShowClock {
     },
     position_s(now_ms) {
       if (!last?.time?.runs || now_ms - last.came_ms > SILENT_MS) return null;
-      // The quickest message was delayed least: all others only seem to come from an earlier clock.
+      // A delay only adds to an offset: the smallest one belongs to the message that was delayed least.
       const offset_ms = Math.min(...offsets.map((one) => one.offset_ms));
       return last.time.show_s + (now_ms - offset_ms - last.at_ms) / 1000;
     },

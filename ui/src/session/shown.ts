@@ -14,8 +14,8 @@ export interface Shown extends Omit<Opened, 'revision'> {
 const NOTHING: Shown = { name: null, etag: null, readOnly: null, show: null, failure: null };
 
 /**
- * The show of this screen's editor: the one that the address names, so that no other screen changes it by opening a show.
- * An address without a name gets the name of the open show.
+ * The show of this screen's editor: in the edit view, the one that the address names, so that no other screen changes
+ * it by opening a show. An address without a name gets the name of the open show.
  */
 export function createShown(live: Pick<Live, 'opened'>): Readable<Shown> {
   const shown = createStore(NOTHING);

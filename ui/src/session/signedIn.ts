@@ -40,7 +40,7 @@ export async function signOut() {
   }
 }
 
-/** The role of this person, asked for anew with each connection. */
+/** The role of this person, asked for with each connection. Until it is known, and without sign-in: `operator`. */
 export function followRole(link: Readable<LinkState>): Readable<Role> {
   const role = createStore<Role>('operator');
   link.subscribe(() => {

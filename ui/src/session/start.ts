@@ -14,7 +14,7 @@ export const checkNow = ({ live }: Pick<Session, 'live'>): Check[] =>
     robots: live.track.latest(),
   });
 
-/** Plays from the chosen frame if all checks pass; otherwise opens the checklist. */
+/** Waits for the plan, then plays from the chosen frame if all checks pass; otherwise opens the checklist. */
 export const startPlay = (session: Session) =>
   whenPlanned(session, () => {
     if (isReady(checkNow(session)))
@@ -22,13 +22,19 @@ export const startPlay = (session: Session) =>
     else session.checking.set(true);
   });
 
-/** Calls `act` when the server has saved and planned the show of this screen: at once, or later. */
+/**
+ * Calls `act` at once if the open show is saved and planned. Otherwise `act` waits for the plan, in place of any action
+ * that waited before.
+ */
 export function whenPlanned(desk: Context, act: () => void) {
   if (isPlanned(desk)) act();
   else desk.waiting.set({ names: [desk.live.opened.get().name], act });
 }
 
-/** Calls the waiting action when the plan arrives; drops it when link or show is lost. Returns a function that ends this. */
+/**
+ * Calls the waiting action when the plan arrives. Drops it when the connection is lost or another show is open. Returns
+ * a function that ends this and also drops it.
+ */
 export function followPlan(desk: Context): () => void {
   const { live, waiting } = desk;
   const look = () => {

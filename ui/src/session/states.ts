@@ -7,8 +7,8 @@ import type { Session } from './session';
 export const savedText = (saved_ms: number) => new Date(saved_ms).toLocaleString();
 
 /**
- * Restores a saved state as a further save, so that what it replaces becomes an earlier state: in this screen's editor if
- * it edits the show, else in the library.
+ * Restores a saved state, in this screen's editor if it edits the show, else in the library. This is a further save:
+ * what it replaces becomes an earlier state.
  */
 export async function restoreState(session: Session, name: string, number: number, when: string) {
   const document = await getState(name, number);

@@ -7,7 +7,10 @@ import type { Session } from './session';
 import { uploadShow } from './upload';
 import { goTo, viewNow } from './address';
 
-/** Opens a dropped show on every screen. The editor makes a frame from anything else; it begins a show if none is open. */
+/**
+ * Opens a single dropped show file on every screen. Anything else is left to the editor, in a new show if the view is
+ * `new` or no show is open. A read-only show takes nothing else; a notice says so.
+ */
 export async function takeDropped(session: Session, dropped: Omit<Dropped, 'into'>) {
   const [file] = dropped.files;
   if (file && dropped.files.length === 1 && isShow(file.name)) return uploadShow(session, file);

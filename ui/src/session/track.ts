@@ -2,17 +2,20 @@ import type { Dot, Point } from '../base/geometry';
 import type { Robots } from '../api/types.gen';
 
 /**
- * Where robots were measured, drawn smoothly. Robots report about twice a second: each is drawn on its way between its
- * last two reports, one report late. Only measured places are drawn so; nothing is guessed ahead.
+ * Where robots were measured, drawn smoothly. Robots report about twice a second: each is drawn on the line between
+ * its last two places, one report late. Nothing is guessed ahead.
  */
 export interface Track {
   push(robots: Robots, now_ms: number): void;
-  /** `faded(robot)`: how strongly it is drawn, 0 to 1. */
+  /** What to draw at `now_ms`. `faded(robot)`: opacity of the robot with that row number, 0 to 1. */
   sample(now_ms: number, faded: (robot: number) => number): Sample;
   latest(): Robots | null;
 }
 
-/** Overwritten by the next `sample`; `hollow` is a new list only when a goal changed. */
+/**
+ * Robots (`filled`), their goals (`hollow`), and lines from robots to where they should be (`errors`), stage metres.
+ * The next `sample` overwrites it; `hollow` is a new list only when a goal or a colour changed.
+ */
 export interface Sample {
   filled: Dot[];
   hollow: readonly Dot[];
@@ -27,7 +30,7 @@ interface Legs {
   changed_ms: Float64Array;
   /** Duration of the drawn motion between the two reports. */
   lasts_ms: Float64Array;
-  /** From the measured to the planned position at that moment. */
+  /** From the measured to the planned position, or to the goal without one; 0 without either. */
   off: Places;
 }
 
@@ -38,9 +41,9 @@ interface Places {
 
 /** A jump above this distance means that the robot was carried, metres. */
 export const JUMP_M = 0.6;
-/** Errors below this are not worth a line, metres: a snapshot's worth of driving and half as much again. */
+/** Only errors above this get a line, metres: 1.5 times what a robot drives between two messages. */
 const ERROR_MIN_M = 0.02;
-/** Reports come at least this often from a robot that drives, milliseconds. */
+/** A robot that drives reports at least this often, milliseconds. Also the longest drawn motion between two places. */
 export const REPORT_MS = 700;
 /** Least duration of a drawn motion, milliseconds. */
 export const LEAST_MS = 50;
@@ -49,7 +52,7 @@ export function createTrack(): Track {
   let legs = noLegs(0);
   let now: Robots | null = null;
   let hollow: readonly Dot[] = [];
-  // Drawn sixty times a second: the same dots and lines are filled in again and again.
+  // Drawn at each refresh of the screen: the same dots and lines are reused to spare memory.
   const dots: Dot[] = [];
   const lines: [Point, Point][] = [];
   const sample: Sample = { filled: [], hollow, errors: [] };
@@ -91,7 +94,7 @@ export function createTrack(): Track {
   };
 }
 
-/** A number that is there: lists are asked only within their length. */
+/** Element `i`, which must lie within the list. */
 const at = (list: ArrayLike<number>, i: number) => list[i] as number;
 
 function noLegs(count: number): Legs {
@@ -107,7 +110,7 @@ function noLegs(count: number): Legs {
   };
 }
 
-/** Goals change once a frame, and their lights with a fade: all else leaves them as they were drawn. */
+/** Whether all goals and colours are as before, so that the drawn list can stay. */
 function sameGoals(before: Robots | null, after: Robots): boolean {
   if (!before || before.goal_x.length !== after.goal_x.length) return false;
   for (let i = 0; i < after.goal_x.length; i++)
@@ -140,7 +143,7 @@ function placeOn(
   place.y = at(from.y, i) + (at(to.y, i) - at(from.y, i)) * t;
 }
 
-/** The drawn position of a robot at a moment. */
+/** The drawn position of a robot, overwritten by each `advance`. */
 const here: Point = { x: 0, y: 0 };
 
 function advance(legs: Legs, robots: Robots, i: number, now_ms: number) {
@@ -163,7 +166,7 @@ function advance(legs: Legs, robots: Robots, i: number, now_ms: number) {
   noteError(legs, robots, i);
 }
 
-/** Distance from the planned position on the path, or without a path from the pixel. */
+/** Notes the way from the measured position to the planned one, or without one to the goal; 0 without either. */
 function noteError({ off }: Legs, robots: Robots, i: number) {
   const onPath = !Number.isNaN(robots.planned_x[i]);
   const meantX = at(onPath ? robots.planned_x : robots.goal_x, i);

@@ -6,14 +6,14 @@ import { notify } from './notices';
 import { openShow } from './openShow';
 import type { Session } from './session';
 
-/** A name for the library from a file's name. */
+/** A name for the library from a file's name: other characters become spaces; at most 60 characters, never empty. */
 export const nameFromFile = (file: string) =>
   stem(file)
     .replace(/[^\p{L}\p{N} _.-]+/gu, ' ')
     .trim()
     .slice(0, 60) || 'Show';
 
-/** The first free name of `base`, `base 2`, `base 3`… */
+/** The first free name of `base`, `base 2`, `base 3`… Upper and lower case count as equal. */
 export function freeName(base: string, taken: readonly string[]): string {
   const all = new Set(taken.map((name) => name.toLowerCase()));
   if (!all.has(base.toLowerCase())) return base;
@@ -23,7 +23,7 @@ export function freeName(base: string, taken: readonly string[]): string {
 /** Most findings of an import that its notice lists. */
 const FINDINGS_MAX = 4;
 
-/** What a notice says of a show that was imported: what its file holds that shows have not is named. */
+/** Tone and lines of the notice after an import. Findings are listed up to `FINDINGS_MAX`; mere notes are left out. */
 export function importedLines({
   name,
   issues,

@@ -17,7 +17,7 @@ import { brokerText } from './brokerWords';
 import { attempt } from '../session/libraryActs';
 import { useSession } from '../session/session';
 
-/** Which broker, how it is reached, and how far the connection is. */
+/** A form for the broker and how it is reached, with the state of the connection; nothing until it is loaded. */
 export function BrokerSection() {
   const { live, link, ask } = useSession();
   const broker = useStore(live.broker);

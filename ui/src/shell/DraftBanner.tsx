@@ -6,7 +6,7 @@ import { attempt } from '../session/libraryActs';
 import { editShow } from '../session/address';
 import { useSession } from '../session/session';
 
-/** Tells that a closed page left unsaved changes, and offers to restore them. */
+/** Says that a closed page left unsaved changes, the newest such draft, and offers to restore or drop them. */
 export function DraftBanner() {
   const session = useSession();
   const draft = useStore(session.orphans)[0];
@@ -36,7 +36,7 @@ export function DraftBanner() {
   );
 }
 
-/** Makes sure the library has a show of that name; one that is gone begins again as its draft. */
+/** Makes sure that the library has the draft's show; if it was deleted, the draft becomes the show. */
 async function bringBack({ name, document }: LeftDraft) {
   try {
     await getShow(name);

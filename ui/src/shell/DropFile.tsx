@@ -4,7 +4,7 @@ import { takeDropped } from '../session/takeDropped';
 import { useSession, type Session } from '../session/session';
 import styles from './DropFile.module.css';
 
-/** Takes what is dropped anywhere on the page, and shows meanwhile what it is taken for. */
+/** Takes what is dropped anywhere on the page; during the drag, says what a drop will do. */
 export function DropFile() {
   const session = useSession();
   const [over, setOver] = useState<string | null>(null);
@@ -66,7 +66,7 @@ function listen(session: Session, setOver: (words: string | null) => void): () =
 const isField = (target: EventTarget | null) =>
   target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement;
 
-/** What happens with what is dragged. Browsers tell the kinds of files before the drop, but not their names. */
+/** What a drop will do, in words. Before the drop, browsers tell the types of files, but not their names. */
 function wordsOf(data: DataTransfer | null): string {
   const items = [...(data?.items ?? [])];
   const types = items.filter(({ kind }) => kind === 'file').map(({ type }) => type);

@@ -24,7 +24,7 @@ import styles from './Header.module.css';
 
 type Dialog = 'library' | 'keys' | 'settings' | null;
 
-/** The name in the library of the show in this view, and its title if that is another one; null: there is no show. */
+/** The name in the library of the show in this view, and its title if that differs; null: there is no show. */
 function useNames(view: View): { name: string; title: string | null } | null {
   const { live, shown, editing } = useSession();
   const here = useStore<Omit<Shown, 'failure'>>(view === 'edit' ? shown : live.opened);
@@ -38,7 +38,7 @@ function useNames(view: View): { name: string; title: string | null } | null {
 
 const titleOf = ({ show }: { show: Show | null }) => show?.name ?? '';
 
-/** The header of every view; Stop all is always in reach. */
+/** The header of all views but the audience view: views, shows, states of connection and fleet, settings, Stop all. */
 export function Header({ view }: { view: View }) {
   const session = useSession();
   const { ask } = session;

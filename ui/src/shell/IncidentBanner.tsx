@@ -5,7 +5,7 @@ import { goTo, type View } from '../session/address';
 import { useSession } from '../session/session';
 import styles from './IncidentBanner.module.css';
 
-/** The newest unread incident, where its card is not in sight: in the editor, and on small screens. */
+/** The newest unread incident that still holds, unless it is mere information; hidden where the live view shows it. */
 export function IncidentBanner({ view }: { view: View }) {
   const { live, ask } = useSession();
   const news = holding(useStore(live.incidents));

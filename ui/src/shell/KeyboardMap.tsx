@@ -1,7 +1,7 @@
 import { Group, Modal, SimpleGrid, Stack, Text, Title } from '@mantine/core';
 import { KEYS } from './keys';
 
-/** Every key there is. */
+/** A dialog with the keyboard map. */
 export function KeyboardMap({ opened, onClose }: { opened: boolean; onClose: () => void }) {
   return (
     <Modal opened={opened} onClose={onClose} title="Keyboard" size="xl">

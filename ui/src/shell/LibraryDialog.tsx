@@ -16,7 +16,7 @@ import { uploadShow } from '../session/upload';
 import { goTo } from '../session/address';
 import { Gate } from '../parts/Gate';
 
-/** Every show on the server: open one, add one, begin one. */
+/** A dialog with the shows on the server: find, open, copy, rename, import, or go on to begin a new one. */
 export function LibraryDialog({ opened, onClose }: { opened: boolean; onClose: () => void }) {
   const session = useSession();
   const open = useStore(session.live.opened, (o) => o.name);

@@ -12,12 +12,12 @@ import styles from './Library.module.css';
 
 interface Props {
   entry: ShowEntry;
-  /** Whether it is the one on every screen. */
+  /** Whether the show is the one open on the server. */
   open: boolean;
   onOpen: () => void;
   /** Asks for a new name, for a copy or for the show itself. */
   onName: (purpose: 'copy' | 'rename') => void;
-  /** Shows the saved states. */
+  /** Opens the saved states. */
   onStates: () => void;
   onChanged: () => void;
 }

@@ -2,7 +2,7 @@ import { Button } from '@mantine/core';
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 
-/** Tells that the connection to server or broker is lost. The page reconnects by itself; the button does it at once. */
+/** Says that the connection to the server is lost, with a button that tries again at once, or why no broker answers. */
 export function LinkBanner() {
   const { live, link } = useSession();
   const state = useStore(live.link);

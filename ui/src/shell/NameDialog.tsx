@@ -3,11 +3,11 @@ import { useState } from 'react';
 
 interface Props {
   title: string;
-  /** What stands there to begin with. */
+  /** The name that the field begins with. */
   name: string;
-  /** What to know before a name is given. */
+  /** A text above the field; null: none. */
   note?: string | null;
-  /** Whether it worked: then the dialog has done its part. */
+  /** Uses the typed name; resolves to whether that worked, and then the dialog closes. */
   onName: (name: string) => Promise<boolean>;
   onClose: () => void;
 }

@@ -8,7 +8,7 @@ import styles from './People.module.css';
 
 const EMPTY: NewPerson = { name: '', role: 'viewer', password: '' };
 
-/** Adds a person. */
+/** A form that adds a person with name, password and role. */
 export function NewPersonForm({ act }: { act: Act }) {
   const [person, setPerson] = useState(EMPTY);
   const { name, role, password } = person;

@@ -6,7 +6,7 @@ import type { Act } from './PersonRow';
 import { RoleSelect } from './RoleSelect';
 import styles from './People.module.css';
 
-/** Makes a token for a program, and shows it once. */
+/** A form that makes a token for a program and shows it, because the server does not show it again. */
 export function NewTokenForm({ act }: { act: Act }) {
   const [name, setName] = useState('');
   const [role, setRole] = useState<Role>('viewer');

@@ -4,7 +4,7 @@ import { editShow, type View } from '../session/address';
 import { openShow } from '../session/openShow';
 import { useSession } from '../session/session';
 
-/** In the editor, tells that the robots have another show than this screen edits. */
+/** In the editor, says that another show is open on the server than the one this screen edits. */
 export function NotOpenBanner({ view }: { view: View }) {
   const session = useSession();
   const open = useStore(session.live.opened, (o) => o.name);

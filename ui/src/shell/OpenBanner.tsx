@@ -1,7 +1,7 @@
 import { useStore } from '../base/store';
 import { useSession } from '../session/session';
 
-/** Warns while the network reaches the server without TLS. */
+/** Warns if the server says that the network reaches it without TLS. */
 export function OpenBanner() {
   const { live } = useSession();
   const isPlain = useStore(live.hello, (hello) => hello?.plain_http);

@@ -11,7 +11,7 @@ import styles from './People.module.css';
 
 type Kind = 'people' | 'tokens';
 
-/** The people with accounts, and the tokens of programs. `me`: the name of this person. */
+/** A dialog for people with accounts and for tokens of programs. `me`: the name of this person. */
 export function PeopleDialog({ me, onClose }: { me: string; onClose: () => void }) {
   return (
     <Modal opened onClose={onClose} title="People and tokens" size="lg">
@@ -31,7 +31,7 @@ export function PeopleDialog({ me, onClose }: { me: string; onClose: () => void 
   );
 }
 
-/** The accounts of a kind, and a function that changes them and then asks for them again. */
+/** The accounts of a kind, and a function that changes them and then asks for the list again. */
 function useAccounts(kind: Kind) {
   const [list, setList] = useState<readonly AccountEntry[]>([]);
   const load = useCallback(() => attempt(() => listAccounts(kind).then(setList)), [kind]);

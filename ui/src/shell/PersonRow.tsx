@@ -6,7 +6,7 @@ import { RoleSelect } from './RoleSelect';
 import rows from '../parts/rows.module.css';
 import styles from './People.module.css';
 
-/** Changes accounts, tells what went wrong, and shows them anew; whether it was done. */
+/** Changes accounts and loads their list again; resolves to whether the change was made. A notice says why if not. */
 export type Act = (change: () => Promise<unknown>) => Promise<boolean>;
 
 interface Props {
@@ -15,7 +15,7 @@ interface Props {
   act: Act;
 }
 
-/** A person: role, a new password, and the way out. */
+/** A person with an account: choose the role, set a new password, or remove the person. */
 export function PersonRow({ person: { name, role }, isMe, act }: Props) {
   const [open, setOpen] = useState<'password' | 'remove' | null>(null);
   return (

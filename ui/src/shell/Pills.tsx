@@ -19,7 +19,7 @@ function Pill(props: { tone: Tone; hint: string; children: ReactNode; label: str
   );
 }
 
-/** State of the connections to server and broker, in one word. */
+/** State of the connections to server and broker, in a few words. */
 export function LinkPill() {
   const { live } = useSession();
   const link = useStore(live.link);
@@ -48,7 +48,7 @@ export function LinkPill() {
   );
 }
 
-/** Whether the robots are simulated or real. */
+/** Whether the robots are simulated or real; nothing without robots. */
 export function KindPill() {
   const { live } = useSession();
   const rows = useStore(live.fleet, (fleet) => fleet.rows);
@@ -63,7 +63,7 @@ export function KindPill() {
   );
 }
 
-/** Number of robots that report. */
+/** Number of robots that report now, and of all robots if some are silent. */
 export function FleetPill() {
   const { live } = useSession();
   const rows = useStore(live.fleet, (fleet) => fleet.rows);

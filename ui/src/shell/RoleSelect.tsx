@@ -3,7 +3,7 @@ import { isRole, ROLES, type Role } from '../session/roles';
 
 interface Props {
   label: string;
-  /** Whether the label is seen, or only told by screen readers. */
+  /** Whether the label is shown; if not, only screen readers say it. */
   isShown?: boolean;
   role: Role;
   onRole: (role: Role) => void;

@@ -22,11 +22,11 @@ import { SignedInSection } from './SignedInSection';
 interface Props {
   opened: boolean;
   onClose: () => void;
-  /** Shows the keyboard map instead. */
+  /** Opens the keyboard map in place of the settings. */
   onKeys: () => void;
 }
 
-/** What belongs to this screen and to the server. What belongs to a show is set in the editor. */
+/** A dialog with the settings of this screen and of the server. Those of a show are in the editor. */
 export function SettingsDialog({ opened, onClose, onKeys }: Props) {
   const { live } = useSession();
   const version = useStore(live.hello, (hello) => hello?.version);
@@ -102,7 +102,7 @@ function AppearanceAndUnits() {
   );
 }
 
-/** Whether robots join by themselves. It holds for the server, and for all screens. */
+/** A switch for whether new robots must be let in. It holds for the server, and so for all screens. */
 function NewRobots() {
   const { ask, live } = useSession();
   const only = useStore(live.fleet, (fleet) => fleet.only_listed);

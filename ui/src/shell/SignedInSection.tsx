@@ -4,7 +4,7 @@ import { Gate } from '../parts/Gate';
 import { signedIn, signOut, type SignedIn } from '../session/signedIn';
 import { PeopleDialog } from './PeopleDialog';
 
-/** The signed-in person, sign-out, and the list of people for operators. Nothing where sign-in is not asked for. */
+/** The signed-in person, sign-out, and for operators the list of people; nothing where sign-in is not asked for. */
 export function SignedInSection() {
   const [person, setPerson] = useState<SignedIn | null>(null);
   const [people, setPeople] = useState(false);

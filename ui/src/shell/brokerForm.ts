@@ -1,8 +1,8 @@
 import type { BrokerSettings, Operation } from '../api/types.gen';
 
-/** Fields of the broker form. Saved passwords and keys stay on the server. */
+/** Fields of the broker form. Password and key are empty until typed: kept ones stay on the server. */
 export interface BrokerFields {
-  /** Whether it is the built-in broker. */
+  /** Whether the built-in broker is chosen. */
   own: boolean;
   address: string;
   user: string;
@@ -25,7 +25,7 @@ export function fieldsOf(settings: BrokerSettings): BrokerFields {
   };
 }
 
-/** The operation that the form requests; `null` without an address. */
+/** The operation that the form requests; null: another broker is chosen, without an address. */
 export function connectOf(fields: BrokerFields): (Operation & { do: 'connect' }) | null {
   if (fields.own) return { do: 'connect', address: 'embedded', user: null, password: null };
   const address = fields.address.trim();

@@ -1,4 +1,4 @@
-/** The keyboard map; the bindings stand beside their commands. */
+/** The keyboard map, as text for people: groups of keys with what they do. The keys are bound elsewhere. */
 export const KEYS: { title: string; keys: [string[], string][] }[] = [
   {
     title: 'Everywhere',

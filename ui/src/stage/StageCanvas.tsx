@@ -8,21 +8,22 @@ import type { Scene } from './scene';
 import type { View } from './view';
 import { listenToView } from './viewPointer';
 
-/** Room around the floor for rulers, and above it for the tools, CSS pixels. */
+/** Room on all sides of the floor for rulers, CSS pixels. */
 const MARGIN_PX = 34;
+/** Further room above the floor for the tools, CSS pixels. */
 const TOOLS_PX = 20;
 
 interface Props {
   view: Store<View>;
   /** The scene at a moment; the same object when nothing changed, so that nothing is drawn. */
   sceneAt: (now_ms: number) => Scene;
-  /** When a drag with the first button pans. */
+  /** Whether a drag with the first button pans. */
   pans: Pans;
   /** Handles pointers that do not pan. */
   hand?: Hand;
 }
 
-/** A canvas that draws a scene at the pace of the screen, zooms with the wheel and pans. */
+/** A canvas that draws a scene at each refresh of the screen if it changed, and pans and zooms by pointer and wheel. */
 export function StageCanvas({ view, sceneAt, pans, hand }: Props) {
   const element = useRef<HTMLCanvasElement>(null);
   useEffect(() => {

@@ -9,10 +9,10 @@ import styles from './stage.module.css';
 
 export const fitView = (view: Store<View>) => view.update((now) => ({ ...now, fitted: true }));
 
-/** Width of the floor that is shown around a place that was looked for, metres. */
+/** Shorter side of the view around a place that was searched for, at most, metres. */
 const AROUND_M = 1.2;
 
-/** Shows a place in the middle of the stage, near enough to see it among others. */
+/** Shows a place, stage metres, in the middle of the view; zooms in to `AROUND_M` if the view is wider. */
 export const showPlace = (view: Store<View>, at: Point) =>
   view.update((now) => {
     const least = Math.min(now.width_px, now.height_px) / AROUND_M;
@@ -25,7 +25,7 @@ export const showPlace = (view: Store<View>, at: Point) =>
     return { ...now, fitted: false, camera };
   });
 
-/** Zooms about the middle of the stage. */
+/** Zooms by a factor about the middle of the view. */
 export const zoomView = (view: Store<View>, factor: number) =>
   view.update((now) => ({
     ...now,
@@ -33,7 +33,7 @@ export const zoomView = (view: Store<View>, factor: number) =>
     camera: zoomAt(now.camera, { x: now.width_px / 2, y: now.height_px / 2 }, factor),
   }));
 
-/** Tools that lie on the dark floor in either scheme. */
+/** A button that lies on the dark floor in both colour schemes. */
 export function StageTool(props: {
   label: string;
   active?: boolean;

@@ -1,6 +1,6 @@
 import type { Point } from '../base/geometry';
 
-/** Maps the stage to the canvas: the only conversion between metres and CSS pixels. */
+/** Maps the stage to the canvas, seen from above. Stage: metres, y up; canvas: CSS pixels, y down. */
 export interface Camera {
   /** CSS pixels per metre. */
   scale: number;
@@ -14,10 +14,15 @@ export interface Size {
   height_px: number;
 }
 
+/** Smallest zoom, CSS pixels per metre. */
 const SCALE_MIN = 10;
+/** Largest zoom, CSS pixels per metre. */
 const SCALE_MAX = 6000;
 
-/** The camera that shows the whole floor with a margin around it, and with `top_px` more above it, CSS pixels. */
+/**
+ * The camera that centres the floor with a margin on all sides and `top_px` more above it, CSS pixels. The whole floor
+ * is in view unless that needs a zoom below `SCALE_MIN`.
+ */
 export function fit(
   width_m: number,
   depth_m: number,
@@ -46,7 +51,7 @@ export const stageFromCanvas = (c: Camera, p: Point): Point => ({
   y: (c.originY_px - p.y) / c.scale,
 });
 
-/** Zooms by `factor` and keeps what is under `at` (canvas) where it is. */
+/** Zooms by `factor`, within the limits of the zoom, and keeps what is under `at` (CSS pixels) where it is. */
 export function zoomAt(c: Camera, at: Point, factor: number): Camera {
   const scale = Math.max(SCALE_MIN, Math.min(SCALE_MAX, c.scale * factor));
   const k = scale / c.scale;
@@ -63,7 +68,7 @@ export const panBy = (c: Camera, dx_px: number, dy_px: number): Camera => ({
   originY_px: c.originY_px + dy_px,
 });
 
-/** A step of 1, 2 or 5 times a power of ten metres that is at least `least_px` wide. */
+/** The least step of 1, 2 or 5 times a power of ten that is `least_px` wide at `scale` pixels a unit. */
 export function gridStep(scale: number, least_px = 60): number {
   const least_m = least_px / scale;
   const power = 10 ** Math.floor(Math.log10(least_m));

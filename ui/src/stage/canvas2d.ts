@@ -7,7 +7,7 @@ import { addLines } from './lines';
 import { createSprites, isOff } from './sprites';
 import { FLOOR } from './palette';
 
-/** Draws scenes. Another renderer than Canvas2D would have the same two calls. */
+/** Draws scenes on a canvas. Sizes are CSS pixels; `density`: device pixels per CSS pixel. */
 export interface StageRenderer {
   resize(width_px: number, height_px: number, density: number): void;
   draw(scene: Scene, camera: Camera): void;

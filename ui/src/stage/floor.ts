@@ -4,7 +4,7 @@ import { canvasFromStage, gridStep, type Camera, type Size } from './camera';
 import type { Scene } from './scene';
 import { FLOOR } from './palette';
 
-/** Floor, grid, rulers and obstacles, CSS pixels. */
+/** Draws floor and obstacles, and with `scene.grid` grid and rulers, over a canvas of `size` in CSS pixels. */
 export function drawFloor(
   context: CanvasRenderingContext2D,
   scene: Scene,
@@ -38,7 +38,7 @@ export function drawFloor(
   context.strokeRect(min.x, min.y, w, h);
 }
 
-/** Font size of the rulers; grows with the page's font size. */
+/** Font size of the rulers, CSS pixels: 11 at a page font size of 16, growing with it. */
 const rulerSize_px = () =>
   Math.round(11 * (parseFloat(getComputedStyle(document.documentElement).fontSize) / 16));
 
@@ -80,7 +80,7 @@ function drawGrid(context: CanvasRenderingContext2D, scene: Scene, camera: Camer
   context.fillText(unit, corner.x + 6, corner.y);
 }
 
-/** Planned paths, CSS pixels. */
+/** Draws the planned paths, each in its colour; black ones in grey. */
 export function drawPaths(context: CanvasRenderingContext2D, scene: Scene, camera: Camera) {
   context.lineWidth = 1.25;
   context.globalAlpha = 0.5;

@@ -3,7 +3,7 @@ import type { Rasteriser } from './rasteriser';
 import { drawFloor, drawPaths } from './floor';
 import type { Scene } from './scene';
 
-/** The layer under the lights: floor, planned paths and targets, painted once and then copied. */
+/** The layer under the lights: floor, planned paths and targets, painted when they change and otherwise copied. */
 export interface FloorLayer {
   /** A picture of `size`, device pixels; repainted only when one of its inputs changed. */
   of(
@@ -73,7 +73,7 @@ export function createFloorLayer(rasteriser: Rasteriser): FloorLayer {
   };
 }
 
-/** Tells whether a list of inputs differs from the list of the last call. */
+/** A function that tells whether a list of inputs differs from the list of its last call. */
 function createChangeWatch() {
   let last: readonly unknown[] = [];
   return (inputs: readonly unknown[]): boolean => {

@@ -1,7 +1,7 @@
 /** Radius of a light's glow in radii of the robot. */
 export const GLOW_RADII = 3.4;
 
-/** Share of the colour by the distance from the middle in radii: bright to the rim, then a soft falloff. */
+/** Share of the colour, 0 to 1, by distance from the middle in robot radii: bright to the rim, then a soft falloff. */
 export const GLOW_STOPS: readonly (readonly [radii: number, alpha: number])[] = [
   [0, 1],
   [0.78, 0.92],
@@ -11,11 +11,12 @@ export const GLOW_STOPS: readonly (readonly [radii: number, alpha: number])[] = 
   [GLOW_RADII, 0],
 ];
 
-/** The white core of a light: its radius in radii of the robot, and its strength. */
+/** Radius of the white core of a light, in radii of the robot. */
 export const CORE_RADII = 0.7;
+/** Strength of the white core in its middle, 0 to 1. */
 export const CORE_ALPHA = 0.55;
 
-/** Share of the colour at a distance in radii, 0 to 1. */
+/** Share of the colour, 0 to 1, at a distance from the middle in radii: `GLOW_STOPS` with straight lines between. */
 export function glowAlpha(radii: number): number {
   let [fromRadii, from] = [0, 1];
   for (const [toRadii, to] of GLOW_STOPS) {

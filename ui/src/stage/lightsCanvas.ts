@@ -10,20 +10,21 @@ export interface LightsCanvas {
   draw(lights: readonly Dot[], radius_m: number, projection: Projection): void;
 }
 
-/** Lights that are darker are not seen, as a share of full brightness. */
+/** Lights darker than this share of full brightness are not drawn. */
 const SEEN_MIN = 0.01;
 /** Least radius of a robot, CSS pixels. */
 const RADIUS_MIN_PX = 1.2;
-/** Most pixels of the picture, as many as a projector of 1920 × 1080 has: lights are soft, larger ones look the same. */
+/** Most pixels of the picture: those of a 1920 × 1080 projector. Lights are soft: more pixels would look the same. */
 const PIXELS_MAX = 1920 * 1080;
-/** How flat a light is in perspective: 0 for a ball, 1 for a disc on the floor. It is a dome that lights what is around. */
+/** How flat a light looks in perspective: 0 as a ball, 1 as a disc on the floor. Lights are domes, between the two. */
 const FLATTENING = 0.5;
-/** Sizes of stamps differ by this factor, and their heights by this share of the width: neither is seen. */
+/** Factor between two sizes of stamps: too small to be seen. */
 const SIZE_STEP = 1.06;
+/** Step between the heights of stamps, as a share of the width: too small to be seen. */
 const FLAT_STEP = 1 / 16;
-/** Most sizes of stamps that are kept: a floor in perspective needs about thirty. */
+/** Most stamps that are kept, one per size and height; above that all are dropped. A perspective needs about thirty. */
 const SIZES_MAX = 120;
-/** A black pixel, as four bytes read from the last to the first. */
+/** An opaque black pixel as one number of a little-endian machine: alpha, blue, green, red. */
 const BLACK = 0xff000000;
 
 /** A rectangle of the picture, pixels; empty if `left` is not less than `right`. */
@@ -95,7 +96,7 @@ function lightInk(light: Dot, ink: Ink) {
   ink.white = 255 * brightnessOf(light);
 }
 
-/** Stamps of a radius, pixels, and a height as a share of the width, both in steps. */
+/** Stamps for a robot's radius in pixels and a height as a share of the width, both rounded to steps. */
 function rememberStamps(): (radius_px: number, flatness: number) => Stamps {
   const kept = new Map<number, Stamps>();
   return (radius_px, flatness) => {

@@ -2,12 +2,12 @@ import type { Point } from '../base/geometry';
 import type { Camera } from './camera';
 import type { Pixels } from './stamps';
 
-/** How much white a line adds, 0 to 255. */
+/** What a line adds to red, green and blue of a pixel, 0 to 255. */
 const WHITE = 110;
 /** Length of the dashes and of the gaps of a line, CSS pixels. */
 const DASH_PX = 3;
 
-/** Rasterises thin dashed lines, because a canvas needs a tenth of a second for thousands of dashes. */
+/** Adds thin dashed lines, in stage metres, to pixels, because a canvas takes 0.1 s for thousands of dashes. */
 export function addLines(
   pixels: Pixels,
   lines: readonly (readonly [Point, Point])[],

@@ -1,7 +1,7 @@
 /** Whether a drag with the first button or one finger moves the view, asked when the drag begins. */
 export interface Pans {
   wanted(): boolean;
-  /** Such a drag has begun. */
+  /** A drag that moves the view has begun. */
   began(): void;
 }
 

@@ -2,7 +2,7 @@ import type { Point } from '../base/geometry';
 import { canvasFromStage, type Camera } from './camera';
 import { FLOOR } from './palette';
 
-/** Draws a pin at the upper right of every pinned pixel. */
+/** Draws a pin at the upper right of each pixel at `at`, stage metres. `r_m`: radius of a robot, metres. */
 export function paintPins(c: CanvasRenderingContext2D, camera: Camera, r_m: number, at: Point[]) {
   const radius = Math.max(3, r_m * camera.scale) * 0.75;
   c.strokeStyle = FLOOR.ink;

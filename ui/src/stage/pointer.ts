@@ -1,17 +1,20 @@
 import type { Point } from '../base/geometry';
 import type { Pans } from './pans';
 
-/** Pointer events on the stage, canvas CSS pixels. `adds`: a finger was held still, which is a finger's Shift. */
+/**
+ * Pointer events on the stage, canvas CSS pixels. `adds`: a finger was held still for `LONG_MS`, which acts as Shift.
+ * `lost`: what `down` began is over without `up`.
+ */
 export interface Hand {
   down(at: Point, event: PointerEvent, adds: boolean): void;
   move(at: Point, event: PointerEvent): void;
   up(at: Point, event: PointerEvent, adds: boolean): void;
   lost(): void;
-  /** The second button, or a finger that was held still and lifted there: asks for a menu. What `down` began is over. */
+  /** The second button, or a finger held still and lifted in place, asks for a menu. What `down` began is over. */
   menu(at: Point, event: MouseEvent): void;
 }
 
-/** A finger held still for this time acts as Shift, milliseconds. */
+/** A finger held still for this time acts as Shift, milliseconds; larger: it must be held longer. */
 export const LONG_MS = 450;
 /** A finger that stays within this is held still, CSS pixels. */
 export const STILL_PX = 8;
@@ -27,8 +30,8 @@ const isStill = (a: Point, b: Point) => Math.hypot(a.x - b.x, a.y - b.y) < STILL
 type Waiting = { from: Point; event: PointerEvent; timer: ReturnType<typeof setTimeout> };
 
 /**
- * The first button or a finger, held until it is let go. What a finger means is known only once it moves, rests or
- * leaves: until then nothing has happened, and a second finger makes it a matter of the view.
+ * Tells `hand` of the first button or a finger, and of moves without a button. A finger's `down` waits until the
+ * finger moves, has rested for `LONG_MS` or is lifted. A second finger ends what the first one does.
  */
 export function listenToHand(canvas: HTMLCanvasElement, hand: Hand, pans: Pans): () => void {
   const stop = new AbortController();
@@ -36,7 +39,7 @@ export function listenToHand(canvas: HTMLCanvasElement, hand: Hand, pans: Pans):
   let isFinger = false;
   let waiting: Waiting | null = null;
   let adds = false;
-  /** Where a finger rests that was held still for long and has not moved since. */
+  /** Where a finger rests that was held still for `LONG_MS` and has not moved since; null: none. */
   let resting: Point | null = null;
   const on = (
     name: 'pointerdown' | 'pointermove' | 'pointerup' | 'pointercancel',

@@ -1,10 +1,10 @@
 import type { Point } from '../base/geometry';
 import { fit, type Size } from './camera';
 
-/** From where the audience sees the floor: from above, or in perspective from its front edge. */
+/** From where the audience sees the floor: from above, or in perspective from before the edge with the least y. */
 export type Viewpoint = 'above' | 'front';
 
-/** Where a place of the stage is on the screen. */
+/** Where a place of the stage is in the window, CSS pixels from its upper left corner. */
 export interface Seen {
   x_px: number;
   y_px: number;
@@ -23,19 +23,20 @@ export interface FloorSize {
   depth_m: number;
 }
 
-/** Room around the floor, as a share of the shorter side of the window: lights at the edge keep their glow. */
+/** Room on each side of the floor, as a share of the window's shorter side: lights at the edge keep their glow. */
 const MARGIN = 0.035;
-/** Distance of the viewer from the front edge and height above the floor, in the longer sides of the floor. */
+/** Distance of the viewer from the front edge, as a share of the longer side of the floor. */
 const BACK = 0.62;
+/** Height of the viewer above the floor, as a share of the longer side of the floor. */
 const RISE = 0.52;
-/** Nearest place that is drawn, metres from the viewer: nearer ones grow without bound. */
+/** Least distance along the view of a place that is drawn, metres: nearer ones would grow without bound. */
 const NEAR_M = 0.1;
-/** Least size of a picture, pixels: a window that is being opened has none. */
+/** Least size of the picture along an axis, CSS pixels: a window that is being opened has size 0. */
 const LEAST_PX = 8;
 
 export const newSeen = (): Seen => ({ x_px: 0, y_px: 0, scale: 0, flatness: 1 });
 
-/** The whole floor as the audience sees it from a viewpoint, in a window of that size. */
+/** The whole floor as seen from a viewpoint, fitted into a window of `size`. */
 export const projectionOf = (viewpoint: Viewpoint, floor: FloorSize, size: Size): Projection =>
   viewpoint === 'above' ? fromAbove(floor, size) : fromFront(floor, size);
 
@@ -51,7 +52,7 @@ function fromAbove({ width_m, depth_m }: FloorSize, size: Size): Projection {
   };
 }
 
-/** A pinhole camera before the front edge, turned to the middle of the floor; the whole floor fills the window. */
+/** A pinhole camera before the front edge, turned to the middle of the floor; the floor fits the window by one axis. */
 function fromFront({ width_m, depth_m }: FloorSize, size: Size): Projection {
   const side_m = Math.max(width_m, depth_m, 0.1);
   const rise_m = RISE * side_m;

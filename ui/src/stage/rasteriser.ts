@@ -4,10 +4,10 @@ import type { Camera } from './camera';
 import { CORE_ALPHA, CORE_RADII, GLOW_RADII, glowAlpha } from './glow';
 import { createStamps, type Ink, type Pixels, type Round, type Stamps } from './stamps';
 
-/** At least this many lights are rasterised in software, because sprites of many colours cost more. */
+/** From this number of lights on, they are rasterised in software, because sprites of many colours cost more. */
 export const RASTERISED_MIN = 400;
 
-/** Width of a ring's line as a share of its radius; between one and two CSS pixels. */
+/** Width of a ring's line as a share of its radius, before it is limited to one to two CSS pixels. */
 const LINE_RADII = 0.16;
 
 /** Paints one shape at every dot. */
@@ -20,8 +20,8 @@ type Painter = (
 ) => void;
 
 /**
- * Paints lights, bodies of dark robots, and rings into an array of pixels. With a thousand fading colours this is faster
- * than one sprite per colour, and as fast without a graphics card as with one.
+ * Paints lights, bodies of dark robots, and rings into an array of pixels. With a thousand fading colours this is
+ * faster than one sprite per colour, and as fast without a graphics card as with one.
  */
 export interface Rasteriser {
   addLights: Painter;
@@ -46,7 +46,7 @@ function painter(make: (radius_px: number, density: number) => Stamps): Painter 
     stamps(radius_px, density).press(pixels, dots, camera, density);
 }
 
-/** The same thing for the same size as last time. */
+/** `make` with a memory of one: the same radius and density as in the last call give the same result. */
 function remembered<T>(make: (radius_px: number, density: number) => T) {
   let last: { radius_px: number; density: number; made: T } | null = null;
   return (radius_px: number, density: number): T => {
@@ -88,11 +88,12 @@ function bodyInk({ alpha }: Dot, ink: Ink) {
   ink.white = RIM * ink.covers;
 }
 
-/** Colour of a robot without light, and the added brightness of its rim. */
+/** Colour of a robot without light. */
 const BODY = 0x1b2029;
+/** Brightness that the rim of a robot adds to each component, 0 to 255. */
 const RIM = 70;
 
-/** A line with soft edges. */
+/** A ring: a circle of radius `radius_px`, as a line `line_px` thick with soft edges, pixels. */
 const ringOf = (radius_px: number, line_px: number): Round => ({
   reach_px: radius_px + line_px / 2 + 1,
   bodyAt: (away_px) => Math.max(0, Math.min(1, line_px / 2 + 0.5 - Math.abs(away_px - radius_px))),
@@ -107,6 +108,7 @@ function ringInk(dot: Dot, ink: Ink) {
   ink.b = blue(color) * ink.covers;
 }
 
+/** Opacity of a ring at full alpha of its dot, 0 to 1. */
 const RING_ALPHA = 0.7;
 /** Colour of a ring for a pixel without light. */
 const OFF = 0x7d889c;

@@ -3,7 +3,7 @@ import type { Unit } from '../base/units';
 import type { Stage } from '../model/show';
 import type { Camera } from './camera';
 
-/** Input of a renderer. Measured positions are filled and planned positions hollow; never the other way round. */
+/** Input of a renderer: what to draw, stage metres. */
 export interface Scene {
   width_m: number;
   depth_m: number;
@@ -12,7 +12,7 @@ export interface Scene {
   grid: boolean;
   /** Unit of the rulers; metres by default. */
   unit?: Unit;
-  /** Filled dots: measured lights. */
+  /** Filled dots: where robots are, or where pixels are edited. */
   filled: readonly Dot[];
   /** Hollow dots: targets. */
   hollow: readonly Dot[];
@@ -20,7 +20,7 @@ export interface Scene {
   errors: readonly [Point, Point][];
   /** Planned paths. */
   paths: readonly Polyline[];
-  /** Drawn last, in CSS pixels. */
+  /** Draws on top of all else, in CSS pixels. */
   overlay?: (context: CanvasRenderingContext2D, camera: Camera) => void;
 }
 

@@ -2,14 +2,14 @@ import { blue, green, luma, red, type Rgb } from '../base/colour';
 import { CORE_ALPHA, CORE_RADII, GLOW_RADII, GLOW_STOPS } from './glow';
 import { FLOOR } from './palette';
 
-/** Colours are rounded to this many steps a component, so that fades do not fill the cache. */
+/** Each component of a colour, 0 to 255, is rounded to a multiple of this, so that fades do not fill the cache. */
 const STEP = 8;
-/** Most sprites in the cache; above that all are dropped and drawn again within one frame. */
+/** Most glows, and most rings, in their caches; above that the cache is emptied. */
 const KEPT_MAX = 1500;
 
 /** Lights drawn once for each colour and size, then copied. */
 export interface Sprites {
-  /** The glow of a light, to be drawn with `lighter`; `null` for a light that is off. */
+  /** The glow of a light of a robot's radius in device pixels, to be drawn with `lighter`; null: the light is off. */
   glow(color: Rgb, radius_px: number): ImageBitmap | null;
   /** The body of a robot under its light. */
   body(radius_px: number): ImageBitmap;

@@ -1,7 +1,7 @@
 import type { Dot } from '../base/geometry';
 import type { Camera } from './camera';
 
-/** Places within a pixel that have a stamp of their own, along each axis: what moves slowly still moves smoothly. */
+/** Positions within a pixel with a stamp of their own, along each axis: a slow dot still moves smoothly. */
 const PHASES = 4;
 
 /** Pixels of a picture, RGBA, rows from the top. */
@@ -32,7 +32,7 @@ export interface Round {
   shineAt(away_px: number): number;
 }
 
-/** Colour of a stamp: the value added per component at full coverage. */
+/** Colour of a stamp: the value added to each component at full coverage, 0 to 255. */
 export interface Ink {
   r: number;
   g: number;
@@ -112,7 +112,7 @@ function pressOne({ data, width, height }: Pixels, stamp: Stamp, x: number, y: n
       const share = body[k] as number;
       const added = (shine[k] as number) * white;
       const kept = 1 - share * covers;
-      // The clamped array keeps sums below 256.
+      // The clamped array limits sums to 255.
       data[at] = (data[at] as number) * kept + share * r + added;
       data[at + 1] = (data[at + 1] as number) * kept + share * g + added;
       data[at + 2] = (data[at + 2] as number) * kept + share * b + added;

@@ -1,7 +1,7 @@
 import { createStore, type Store } from '../base/store';
 import type { Camera } from './camera';
 
-/** Camera of a stage and whether it follows the size of its place on screen. */
+/** Camera of a stage, and the size of its canvas, CSS pixels. `fitted`: the camera keeps the whole floor in view. */
 export interface View {
   camera: Camera;
   fitted: boolean;

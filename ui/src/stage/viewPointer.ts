@@ -6,14 +6,14 @@ import { placeOn } from './pointer';
 import type { View } from './view';
 
 /**
- * The wheel zooms; the middle button (or, if so wanted, the first, or one finger) pans; two fingers do both, on the screen
- * and on a touchpad.
+ * Pans and zooms a view. The wheel zooms, with Shift it pans. The middle button pans, and where `pans` wants it the
+ * first button or one finger too. Two fingers pan and zoom, on the screen and on a touchpad.
  */
 export function listenToView(canvas: HTMLCanvasElement, view: Store<View>, pans: Pans): () => void {
   const stop = new AbortController();
   const options = { signal: stop.signal };
   const held = new Map<number, Point>();
-  /** The pointers that pan alone. */
+  /** Ids of the pointers that pan by themselves; another finger only counts together with one of them. */
   const panning = new Set<number>();
   const move = (change: (camera: Camera) => Camera) =>
     view.update((now) => ({ ...now, fitted: false, camera: change(now.camera) }));
@@ -65,16 +65,17 @@ export function listenToView(canvas: HTMLCanvasElement, view: Store<View>, pans:
   return () => stop.abort();
 }
 
-/** Pinched fingers on a touchpad turn the wheel with Ctrl, in small steps. */
+/** Exponent of the zoom per CSS pixel of a pinch on a touchpad, which browsers report as a wheel with Ctrl. */
 const PINCH = 0.01;
+/** Exponent of the zoom per CSS pixel of a wheel. */
 const WHEEL = 0.0015;
 
-/** What a wheel means of which there are many kinds. */
+/** The fields of a wheel event that tell what it means. */
 export type Turn = Pick<WheelEvent, 'deltaX' | 'deltaY' | 'deltaMode' | 'ctrlKey' | 'shiftKey'> & {
   wheelDeltaY?: number;
 };
 
-/** The camera after a turn of the wheel, or after two fingers moved on a touchpad. */
+/** The camera after a wheel event at `at`, CSS pixels: from a wheel, or from two fingers on a touchpad. */
 export function turned(camera: Camera, at: Point, turn: Turn): Camera {
   if (turn.ctrlKey && isTouchpad(turn)) return zoomAt(camera, at, Math.exp(-turn.deltaY * PINCH));
   if (!turn.ctrlKey && (isTouchpad(turn) || turn.deltaX !== 0))
@@ -84,13 +85,13 @@ export function turned(camera: Camera, at: Point, turn: Turn): Camera {
 }
 
 /**
- * Whether fingers on a touchpad turned the wheel. Browsers do not tell; they report three units of the old `wheelDeltaY`
- * for each CSS pixel of a touchpad, and 120 for a notch of a wheel.
+ * Whether a wheel event seems to come from a touchpad. Browsers do not say. Some report three units of the old
+ * `wheelDeltaY` for each CSS pixel of a touchpad, and 120 for a notch of a wheel.
  */
 const isTouchpad = ({ deltaMode, deltaY, wheelDeltaY }: Turn) =>
   deltaMode === 0 && deltaY !== 0 && wheelDeltaY === -3 * deltaY;
 
-/** One of two fingers goes from `before` to `at`: what is under both stays under both. */
+/** The camera after one of two fingers went from `before` to `at`, CSS pixels: it zooms and pans with them. */
 export function pinch(camera: Camera, before: Point, at: Point, other: Point): Camera {
   const apart = (p: Point) => Math.max(10, Math.hypot(p.x - other.x, p.y - other.y));
   const middle = { x: (before.x + other.x) / 2, y: (before.y + other.y) / 2 };

@@ -9,7 +9,7 @@ import { WordFloor } from './WordFloor';
 import { WordVerdict } from './WordVerdict';
 import styles from './Start.module.css';
 
-/** Longest text, characters. */
+/** Longest text that can be typed, characters. */
 const TEXT_MAX = 60;
 
 interface Props {
@@ -20,7 +20,7 @@ interface Props {
   onWords: (text: string, frames: readonly TemplateFrame[]) => void;
 }
 
-/** Asks what to show: words with a picture of what the robots here make of them, files, or nothing yet. */
+/** Asks what a new show shows: words, with a picture of how the robots show them, files, or nothing yet. */
 export function AskBox({ fleet, about, isBusy, onWords }: Props) {
   const session = useSession();
   const [text, setText] = useState(() => welcomeFor(fleet.robots));

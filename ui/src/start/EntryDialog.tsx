@@ -19,21 +19,22 @@ import { DayButtons } from './DayButtons';
 interface Props {
   /** null: a new entry. */
   entry: PlaylistEntry | null;
-  /** The first entry has none before it, so it has a time of day. */
+  /** Whether the entry is the first one: it has none before it, and needs a time of day. */
   isFirst: boolean;
-  /** Local time of the server, which a new entry begins with. */
+  /** Local time of the server, with which the field for the time of a new entry begins. */
   now: string;
   onSave: (entry: PlaylistEntry) => void;
   onClose: () => void;
 }
 
-/** Speeds of drives that are offered, percent: those of the checklist. */
+/** Speeds of drives that are offered, percent. */
 const SPEEDS = [30, 50, 100];
 /** The longest pause that the server takes, minutes. */
 const PAUSE_MAX_MIN = 720;
+/** Pause with which a new entry begins, minutes. */
 const PAUSE_USUAL_MIN = 15;
 
-/** Show, start and speed of an entry. */
+/** A dialog for show, start and speed of an entry of the playlist. */
 export function EntryDialog({ entry, isFirst, now, onSave, onClose }: Props) {
   const [names, setNames] = useState<readonly string[]>([]);
   const [show, setShow] = useState(entry?.show ?? '');

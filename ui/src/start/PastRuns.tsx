@@ -3,7 +3,7 @@ import { IconReportAnalytics } from '@tabler/icons-react';
 import { useState } from 'react';
 import { RunsDialog } from '../parts/RunsDialog';
 
-/** Leads to the runs that were recorded, and their reports. */
+/** A button that opens the recorded runs and their reports. */
 export function PastRuns() {
   const [shown, setShown] = useState(false);
   return (

@@ -15,13 +15,13 @@ import { PlaylistRows } from './PlaylistRows';
 import { SwitchDialog } from './SwitchDialog';
 import styles from './Playlist.module.css';
 
-/** A day of shows: when each starts by itself, and what became of it. */
+/** The playlist: when each show starts by itself, what became of it today, and the switch of the playlist. */
 export function Playlist() {
   const { live, ask } = useSession();
   const [seen, take] = usePlaylist();
   const left_s = useCountdown(seen);
   const [asks, setAsks] = useState(false);
-  /** Place of the entry that is changed; the number of entries: a new one. */
+  /** Index of the entry that is changed; the number of entries: a new one; null: none. */
   const [edited, setEdited] = useState<number | null>(null);
   const robots = useStore(live.fleet, ({ rows }) => {
     const kind = fleetKind(rows);

@@ -8,15 +8,15 @@ import styles from './Playlist.module.css';
 interface Props {
   state: PlaylistState;
   onChange: (entries: readonly PlaylistEntry[]) => void;
-  /** The entry at this place is to be changed. */
+  /** Asks for the entry at this index to be changed. */
   onEdit: (place: number) => void;
 }
 
-/** The entries in order. Alt with an arrow key moves the one that has the focus, Delete removes it. */
+/** The entries in order. Alt with an arrow key up or down moves the entry that has the focus, Delete removes it. */
 export function PlaylistRows({ state, onChange, onEdit }: Props) {
   const { entries, today } = state;
   const list = useRef<HTMLOListElement>(null);
-  /** The entry that was moved: it keeps the focus, which the browser takes from what is put elsewhere. */
+  /** Id of an entry that was just moved: it gets the focus back, which moving takes from it. Null: none. */
   const held = useRef<number | null>(null);
   useEffect(() => {
     const id = held.current;

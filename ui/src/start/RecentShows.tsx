@@ -9,15 +9,15 @@ import { goTo } from '../session/address';
 import { ShowThumbnail } from '../parts/ShowThumbnail';
 import styles from './Start.module.css';
 
-/** Shows that are listed; the library has them all. */
+/** Most shows that are listed. */
 const LISTED = 4;
 
-/** The shows that were saved last; if there are fewer, examples. */
+/** The shows that were saved last, then shows that were not saved here, such as examples; nothing without a list. */
 export function RecentShows() {
   const session = useSession();
   const [entries, setEntries] = useState<readonly ShowEntry[]>([]);
   useEffect(() => {
-    // Without a list, the page says nothing of it: the library dialog names what is wrong.
+    // If that fails, the section stays away: the library dialog says what is wrong.
     listShows().then(
       (found) => setEntries([...found].sort((a, b) => latest(b) - latest(a)).slice(0, LISTED)),
       () => undefined,

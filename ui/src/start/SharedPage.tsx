@@ -15,7 +15,7 @@ import { Thumbnail } from '../stage/Thumbnail';
 import page from '../parts/page.module.css';
 import styles from './Shared.module.css';
 
-/** A show that the address holds: what it is, and whether it becomes a show of the library. Nothing is saved before. */
+/** Shows what the packed show in the address is, and offers to save it in the library as a new show. */
 export default function SharedPage() {
   const packed = useShared();
   return <Linked key={packed} packed={packed} />;
@@ -42,11 +42,12 @@ function Linked({ packed }: { packed: string }) {
   return linked ? <Facts linked={linked} /> : <main aria-busy />;
 }
 
-/** Longest title that is shown, characters, and largest robot, metres: a link may hold any. */
+/** Longest title that is shown, characters: a link may hold any. */
 const TITLE_MAX = 120;
+/** Largest radius with which robots are drawn, metres: a link may hold any. */
 const RADIUS_MAX_M = 0.2;
 
-/** `Heart`, or what a show without a title is called. */
+/** The show's title, cut to `TITLE_MAX`, or words for a show without one. */
 const titleOf = ({ name }: Show) => name.trim().slice(0, TITLE_MAX) || 'A show without a name';
 
 function Facts({ linked: { document, show } }: { linked: LinkedShow }) {

@@ -19,7 +19,7 @@ import { Playlist } from './Playlist';
 import { YourFleet } from './YourFleet';
 import styles from './Start.module.css';
 
-/** What a new show is made of: words, files, a template, or nothing yet. */
+/** The page that begins a new show: from words, files, a template, or empty. Also recent shows, playlist and fleet. */
 export default function StartPage() {
   const session = useSession();
   const maker = useMaker();

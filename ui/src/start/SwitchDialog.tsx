@@ -10,7 +10,7 @@ interface Props {
   onClose: () => void;
 }
 
-/** Asks once before shows start by themselves. */
+/** Asks before the playlist is switched on, so that shows start by themselves. */
 export function SwitchDialog({ state, robots, onYes, onClose }: Props) {
   return (
     <Modal opened onClose={onClose} title="Play by schedule?">

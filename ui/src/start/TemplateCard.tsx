@@ -9,15 +9,15 @@ import styles from './Start.module.css';
 interface Props {
   template: Template;
   fleet: Fleet;
-  /** The picture that stands for it; null: not made yet. */
+  /** The frame that the card shows as its picture; null: it is not made yet. */
   face: MadeTemplateFrame | null;
-  /** Number of frames that are made, while its show is made; null: it is not. */
+  /** Number of frames made while a show is made of this template; null: none is being made. */
   made: number | null;
   isBusy: boolean;
   onChoose: (frames: readonly TemplateFrame[]) => void;
 }
 
-/** A template with a picture of what the robots here make of it. */
+/** A card that begins a show from a template, with a picture for the number of robots of `fleet`. */
 export function TemplateCard({ template, fleet, face, made, isBusy, onChoose }: Props) {
   const frames = template.frames(fleet.robots);
   const stays_s = frames.reduce((sum, frame) => sum + frame.airTime_s, 0);

@@ -15,7 +15,7 @@ interface Props {
   about: string;
 }
 
-/** The floor with what the robots make of the words. */
+/** The floor with the pixels that were made of the words; empty until then. */
 export function WordFloor({ made, stage, about }: Props) {
   const [view] = useState(createView);
   const sceneAt = useMemo(() => sceneOf(made, stage), [made, stage]);
@@ -27,7 +27,7 @@ export function WordFloor({ made, stage, about }: Props) {
   );
 }
 
-/** The same scene at every moment. */
+/** A function that gives one and the same scene. */
 function sceneOf(made: MadeTemplateFrame | null, stage: Stage): () => Scene {
   const pixels = made?.frame.pixels ?? [];
   const scene: Scene = {

@@ -3,7 +3,7 @@ import { verdictOfAnswer } from '../make/verdict';
 import { VerdictIcon } from '../parts/VerdictIcon';
 import styles from './Start.module.css';
 
-/** How well the robots show the words. */
+/** How well the robots show the words, or a hint before any are made. */
 export function WordVerdict({ made, robots }: { made: MadeTemplateFrame | null; robots: number }) {
   const { tone, text } = made
     ? verdictOfAnswer(made.answer, robots)

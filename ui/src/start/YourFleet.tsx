@@ -6,7 +6,7 @@ import { fleetKind } from '../session/fleetKind';
 import { useSession } from '../session/session';
 import styles from './Start.module.css';
 
-/** Which robots a new show is made for. */
+/** Says for which robots and which floor a new show is made. `here`: number of rows of the fleet table. */
 export function YourFleet({ floor, here }: { floor: string; here: number }) {
   const { live } = useSession();
   const kind = useStore(live.fleet, (fleet) => fleetKind(fleet.rows));

@@ -8,13 +8,13 @@ import { notify } from '../session/notices';
 import type { Session } from '../session/session';
 import { goTo } from '../session/address';
 
-/** What a new show is made for. */
+/** Number of robots and floor for which a new show is made. */
 export interface Fleet {
   robots: number;
   stage: Stage;
 }
 
-/** Makes a show, opens it on every screen and leads to the editor. `told` hears how many frames are made. */
+/** Makes a show, opens it on every screen and goes to the editor. `told` gets the number of frames made, after each. */
 export async function beginWith(
   session: Session,
   maker: Maker,
@@ -33,12 +33,12 @@ export async function beginWith(
   }
 }
 
-/** A show with all robots at the back edge. */
+/** Begins a new show with one frame, all robots in rows, and goes to the editor. */
 export async function beginEmpty(session: Session, { stage }: Fleet) {
   if ((await createShowInLibrary(session, { stage })) !== null) goTo('edit');
 }
 
-/** A new show whose first frame the Make panel makes of files. */
+/** Begins a new show and goes to the editor, which takes the files as if they were dropped. */
 export async function beginWithFiles(session: Session, { stage }: Fleet, files: readonly File[]) {
   const into = await createShowInLibrary(session, { stage });
   if (into === null) return;

@@ -4,9 +4,9 @@ import { TEMPLATES } from '../make/templates';
 import type { Fleet } from './begin';
 import { useMaker } from './useMaker';
 
-/** The picture that stands for each template, by its id, made one after the other for the fleet that is there. */
+/** The frame that each template's card shows, by template id, made one after the other for a fleet. */
 export function useFaces({ robots, stage }: Fleet): ReadonlyMap<string, MadeTemplateFrame> {
-  // A maker of its own: a newer wish replaces those that wait.
+  // A maker of its own, because a newer request would replace those of another user of the maker.
   const maker = useMaker();
   const [faces, setFaces] = useState<ReadonlyMap<string, MadeTemplateFrame>>(new Map());
   useEffect(() => {

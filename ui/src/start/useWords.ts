@@ -4,7 +4,7 @@ import { wordShow } from '../make/templates';
 import type { Fleet } from './begin';
 import { useMaker } from './useMaker';
 
-/** What the robots make of words: at once by a quick preview, and fully once the words rest; null: nothing yet. */
+/** A frame made of words, first a quick one and then the full one; null: there are no words, or none is made yet. */
 export function useWords(text: string, { robots, stage }: Fleet): MadeTemplateFrame | null {
   // A maker of its own: words that are typed must not wait for the pictures of the templates.
   const maker = useMaker();

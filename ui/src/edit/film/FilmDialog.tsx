@@ -14,6 +14,7 @@ const SIZES = {
 };
 const KINDS: Record<FilmKind, string> = { mp4: 'MP4 (H.264)', webm: 'WebM (VP9)' };
 const VIEWS = { above: 'From above', front: "From the audience's seats" };
+/** Pictures a second of the film. */
 const FPS = 30;
 
 interface ChoiceProps<T extends string> {
@@ -30,7 +31,7 @@ function Choice<T extends string>({ of, onChange, ...props }: ChoiceProps<T>) {
   return <Select {...props} data={data} onChange={choose} allowDeselect={false} />;
 }
 
-/** Makes a film of the show, as the audience sees it, and saves it as a file. */
+/** A dialog that makes a film of the show, as the audience sees it, and saves it as a file. It needs the plan. */
 export default function FilmDialog({ onClose }: { onClose: () => void }) {
   const editing = useEditing();
   const show = useEditor((s) => s.show);

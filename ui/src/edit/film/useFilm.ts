@@ -9,7 +9,7 @@ import { musicOf } from '../../model/beats';
 import { download } from '../../session/download';
 import type { Editing } from '../editing';
 
-/** How far a film is: not begun, the share that is done, its size, or why there is none. */
+/** How far a film is: not begun, the share that is painted (0 to 1), its size in bytes, or why there is none. */
 export type FilmState =
   | { of: 'settings' }
   | { of: 'making'; share: number }

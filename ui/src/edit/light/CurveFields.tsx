@@ -7,11 +7,12 @@ import { useEditing } from '../context';
 import { setSettings } from './lightActs';
 import styles from './Light.module.css';
 
-/** Points that the panel shows; a file may have thousands. */
+/** Most points with fields of their own; a file may have thousands. */
 const SHOWN_MAX = 12;
+/** Latest point, seconds after the layer began. */
 const LONGEST_S = 86_400;
 
-/** How much of a layer shows, from moment to moment since it began. */
+/** The points of a layer's opacity over time, seconds since the layer began. */
 export function CurveFields({ index, curve }: { index: number; curve: readonly CurvePoint[] }) {
   const editing = useEditing();
   const set = (opacity: readonly CurvePoint[] | number) => setSettings(editing, index, { opacity });

@@ -16,13 +16,13 @@ interface Props {
   show: Show;
   isChosen: boolean;
   onChoose: () => void;
-  /** Moves it up by 1, or down by -1. */
+  /** Moves the layer up by 1, or down by -1. */
   onMove: (by: 1 | -1) => void;
-  /** Lets it be dragged, and others be dropped on it. */
+  /** Lets the row be dragged, and other rows be dropped on it. */
   drag: HTMLAttributes<HTMLLIElement>;
 }
 
-/** A layer with what it does, its name and when it shines. */
+/** A layer in the list: a small moving picture of it, its name and when it shines. */
 export function LayerRow({ layer, index, show, isChosen, onChoose, onMove, drag }: Props) {
   const editing = useEditing();
   const title = titleOf(layer);

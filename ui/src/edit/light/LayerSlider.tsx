@@ -4,7 +4,7 @@ import { setSettings } from './lightActs';
 
 interface Props {
   index: number;
-  /** The setting that the slider changes. */
+  /** Name of the layer's setting that the slider changes. */
   setting: string;
   label: string;
   text: string;

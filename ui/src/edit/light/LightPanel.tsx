@@ -17,14 +17,14 @@ export default function LightPanel() {
   const { full, lighting } = editing;
   useEffect(() => {
     lighting.set(true);
-    // The plan says which robot shows which pixel: effects along their order need it.
+    // The plan says which robot shows which pixel: effects along the order of robots need it.
     const stop = full.follow();
     return () => {
       lighting.set(false);
       stop();
     };
   }, [full, lighting]);
-  // Its sliders are followed while they are dragged.
+  // The fields follow a slider while it is dragged.
   const layer = useEditorNow((s) => (chosen === null ? undefined : layersOf(s.show)[chosen]));
   const isEmpty = layers.length === 0;
   return (

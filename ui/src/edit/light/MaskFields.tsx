@@ -15,8 +15,9 @@ const WORDS: Readonly<Record<MaskChoice | 'other', string>> = {
   other: 'What the file says',
 };
 
-/** Most metres from the middle, and most of an edge. */
+/** Greatest distance from the middle of the floor, and greatest length, metres. */
 const FAR_M = 1000;
+/** Least radius, width and depth, metres. */
 const LEAST_M = 0.01;
 
 /** On which robots or which part of the floor a layer shines. */

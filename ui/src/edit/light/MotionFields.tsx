@@ -7,7 +7,7 @@ import { useEditing } from '../context';
 import { LayerSlider } from './LayerSlider';
 import { setSettings } from './lightActs';
 
-/** The most flashes a second that are safe. */
+/** Greatest speed of effects on the slider, but not of sparkles, in 1/s: more than three flashes can cause seizures. */
 const FLASHES_MAX_HZ = 3;
 const WRAPS = [
   { value: 'once', label: 'Once' },
@@ -24,7 +24,7 @@ const EASES = [
 
 const percent = (share: number) => `${Math.round(share * 100)} %`;
 
-/** How a layer moves and what it makes of chance. */
+/** Settings of how a layer moves, of its share of robots and time, and of its random arrangement. */
 export function MotionFields({ index, layer }: { index: number; layer: Layer }) {
   const editing = useEditing();
   const has = (setting: LayerSetting) => isUsed(layer, setting);

@@ -11,7 +11,7 @@ import styles from './Light.module.css';
 /** Most colours of a palette, as docs/light.md has it. */
 const COLOURS_MAX = 64;
 
-/** The colours of a layer in their order. */
+/** The colours of a layer in their order; nothing for an effect without a palette. */
 export function PaletteField({ index, layer }: { index: number; layer: Layer }) {
   const editing = useEditing();
   if (!isUsed(layer, 'palette')) return null;
@@ -66,7 +66,7 @@ export function PaletteField({ index, layer }: { index: number; layer: Layer }) 
   );
 }
 
-/** The palette with its last colour twice; a stop goes to the end. */
+/** The palette with its last colour once more; if that has a stop, the new one stands at the end, 1. */
 function withAnother(palette: readonly PaletteColour[]): readonly PaletteColour[] {
   const last = palette[palette.length - 1] ?? { color: 0xffffff, stop: null };
   return [...palette, last.stop ? { ...last, stop: { ...last.stop, at: 1 } } : last];

@@ -6,7 +6,7 @@ import { useEditing, useEditor } from '../context';
 import { addPreset } from './lightActs';
 import { addPicture, PICTURE_FILES } from './pictureActs';
 
-/** Presets, and files of pictures; one press adds it over the whole show. */
+/** Presets, one press on which adds it as a layer over the whole show, and a button that adds a picture file. */
 export function PresetList({ onAdded }: { onAdded: () => void }) {
   const editing = useEditing();
   const stage = useEditor((s) => s.show.stage);

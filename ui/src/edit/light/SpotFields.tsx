@@ -16,7 +16,7 @@ const ALONG_WORDS: Readonly<Record<Along, string>> = {
   curve: 'A curve',
 };
 
-/** Most metres from the middle, and most of a span, as docs/light.md has them. */
+/** Greatest distance from the middle of the floor, and greatest span, metres, as docs/light.md has them. */
 const FAR_M = 1000;
 
 /** Where a layer starts, its direction and its span; the stage has handles for them. */
@@ -26,7 +26,7 @@ export function SpotFields({ index, layer }: { index: number; layer: Layer }) {
   const { x, y } = placeOf(layer);
   const set = (settings: Record<string, unknown>) => setSettings(editing, index, settings);
   const runs = LAYER_KINDS[layer.kind]?.settings.includes('along') ?? false;
-  // A curve is drawn in the file: the screen keeps it, and does not offer a new one.
+  // The screen keeps a curve that is in the file, but cannot draw one.
   const ways = ALONGS.filter((way) => way !== 'curve' || along === 'curve');
   return (
     <>

@@ -11,7 +11,7 @@ const OF_WORDS = { show: 'Whole show', frames: 'Frames', seconds: 'Seconds' } as
 const PHASES = ['whole', 'picture', 'transition'] as const;
 const PHASE_WORDS = { whole: 'All of it', picture: 'Air time', transition: 'Drive' } as const;
 
-/** When a layer shines: over the whole show, in frames or parts of them, or between two moments. */
+/** When a layer shines: over the whole show, in frames or parts of them, or between two moments of show time. */
 export function WhenFields({ index, layer }: { index: number; layer: Layer }) {
   const editing = useEditing();
   const { when } = layer;

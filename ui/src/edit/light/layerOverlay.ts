@@ -3,7 +3,7 @@ import type { Layer } from '../../model/layers';
 import { canvasFromStage, type Camera } from '../../stage/camera';
 import { beginHandles, dashedLine, DOT_PX, roundHandle } from '../handlePaint';
 
-/** Draws the handles of a layer: where it starts, and the line to the end of its span. */
+/** Draws the handles of a layer: a circle at its place, and a dashed line to a square at the end of its span. */
 export function paintLayer(c: CanvasRenderingContext2D, camera: Camera, layer: Layer) {
   const [place, end] = layerGrips(layer).map(({ at }) => canvasFromStage(camera, at));
   if (!place) return;

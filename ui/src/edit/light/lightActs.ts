@@ -21,7 +21,7 @@ export function duplicateLayer({ editor, layer }: Editing, index: number) {
   layer.set(index + 1);
 }
 
-/** Moves a layer to another number; it stays chosen. */
+/** Moves a layer to index `to`; the layer that is chosen stays chosen. */
 export function moveLayer({ editor, layer }: Editing, index: number, to: number) {
   const before = editor.state.get().show;
   editor.change('Order of light', (show) => layers.moveLayer(show, index, to));
@@ -29,7 +29,7 @@ export function moveLayer({ editor, layer }: Editing, index: number, to: number)
   layer.update((chosen) => (chosen === null ? null : followed(chosen, index, to)));
 }
 
-/** The number of a layer after another one, or itself, was moved. */
+/** The new index of the layer at `number` after a layer was moved from index `from` to `to`. */
 function followed(number: number, from: number, to: number): number {
   if (number === from) return to;
   if (from < number && to >= number) return number - 1;
@@ -49,7 +49,7 @@ export function setFields(
   editor.change('Light', (show) => layers.setLayer(show, index, fields));
 }
 
-/** Lets a layer shine in the chosen frames. */
+/** Lets a layer shine in a part of its frames; a layer without frames gets those from the first to the last chosen. */
 export function setPhase({ editor }: Editing, index: number, phase: layers.LayerPhase) {
   editor.change('When light shines', (show, state) => {
     const layer = layers.layersOf(show)[index];

@@ -9,12 +9,12 @@ import type { Editing } from '../editing';
 
 const NOTHING: readonly Transition[] = [];
 
-/** How long the frame on the stage stands at least, seconds: in its own air time many effects hardly begin. */
+/** Least air time with which the frame on the stage is lit, seconds: in a short one many effects hardly begin. */
 const STANDS_S = 60;
 
 let standing: { frames: readonly Frame[]; frame: number; made: readonly Frame[] } | null = null;
 
-/** The show in which a frame stands long; the same frames for the same ones. */
+/** The show with frame `frame` standing for at least `STANDS_S`; the same list of frames as in the last such call. */
 function withLongFrame(show: Show, frame: number): Show {
   if (standing?.frames !== show.frames || standing.frame !== frame) {
     const made = show.frames.map((one, i) =>
@@ -26,8 +26,8 @@ function withLongFrame(show: Show, frame: number): Show {
 }
 
 /**
- * The light of the moment on the stage, seconds; with `null`, of the frame on it while the panel of layers is open, as if
- * the robots stood in it for long. null: there is none, or it is not shown.
+ * The robots' colours at `time_s`, seconds from the start of the first drive. With null: of the frame on the stage
+ * while the panel of layers is open, as if it stood for long, over and over. The answer is null without colours.
  */
 export function litNow(
   editing: Editing,
@@ -46,7 +46,7 @@ export function litNow(
   return editing.lights.at(long, transitions, segment.shownFrom_s + into_s);
 }
 
-/** The layer whose handles the stage shows, with its number; null: none. */
+/** The chosen layer, with its index, while the panel of layers is open; null: none. */
 export function shownLayer(editing: Editing): { index: number; layer: Layer } | null {
   const index = editing.lighting.get() ? editing.layer.get() : null;
   const layer = index === null ? undefined : layersOf(editing.editor.state.get().show)[index];
@@ -58,11 +58,11 @@ const colourAt = (lit: Colours, robot: number, otherwise: Rgb): Rgb => {
   return r === undefined || g === undefined || b === undefined ? otherwise : rgb(r, g, b);
 };
 
-/** Robots in the order of the plan, in their light. */
+/** Dots of robots, in the order of the plan, with their colours from `lit`; null leaves them as they are. */
 export const litDots = (dots: Dot[], lit: Colours | null): Dot[] =>
   lit ? dots.map((dot, robot) => ({ ...dot, color: colourAt(lit, robot, dot.color) })) : dots;
 
-/** The pixels of a frame, each in the light of the robot that shows it. */
+/** A frame's pixels as dots, each in the colour of its robot by `drive`; without paths the n-th pixel is robot n. */
 export function litPixels(
   pixels: readonly Pixel[],
   drive: Transition | undefined,

@@ -7,10 +7,10 @@ import { notify } from '../../session/notices';
 import type { Editing } from '../editing';
 import { look, type Looked } from '../taking';
 
-/** Files that a layer can project. */
+/** Endings and media types of files that a layer can project, for a file chooser. */
 export const PICTURE_FILES = '.png,.jpg,.jpeg,.webp,.gif,image/png,image/jpeg,image/webp,image/gif';
 
-/** Lets a layer project a file. */
+/** Lets a layer project a file, unless the layer changed while the file was read. A failure is shown as a notice. */
 export async function choosePicture(editing: Editing, layer: Layer, file: File) {
   const taken = await take(editing, file);
   if (!taken) return;
@@ -21,7 +21,7 @@ export async function choosePicture(editing: Editing, layer: Layer, file: File) 
   });
 }
 
-/** Adds a layer over all others that projects a file on the whole floor, and chooses it. */
+/** Adds a layer over all others that projects a file as wide as the floor, and chooses it. */
 export async function addPicture(editing: Editing, file: File) {
   const taken = await take(editing, file);
   if (!taken) return;
@@ -44,7 +44,7 @@ interface Taken {
   assets: Readonly<Record<string, unknown>>;
 }
 
-/** Sends a file to the server, so that shows can name it; null: it is of no use, which is said. */
+/** Sends a picture file to the server, so that shows can name it; null: it cannot be used, and a notice says why. */
 async function take(editing: Editing, file: File): Promise<Taken | null> {
   try {
     const looked = await look(editing, file);

@@ -3,7 +3,7 @@ import type { Pair } from '../../model/motion';
 import { LengthInput } from '../../parts/LengthInput';
 import styles from '../light/Light.module.css';
 
-/** Most points, as docs/show-format.md has it. */
+/** Most points of a curve, as docs/show-format.md has it. */
 const POINTS_MAX = 200;
 
 interface Props {
@@ -50,7 +50,7 @@ export function CurvePoints({ name, along, onChange }: Props) {
   );
 }
 
-/** As far from the last point as that one is from the point before it. */
+/** A point beyond the last one, by the step from the point before it to it; a missing point counts as 0, 0. */
 function next(along: readonly Pair[]): Pair {
   const [x, y] = along[along.length - 1] ?? [0, 0];
   const [fromX, fromY] = along[along.length - 2] ?? [0, 0];

@@ -18,10 +18,10 @@ const WORDS: Readonly<Record<MotionKind, string>> = {
 /** Kinds with handles on the floor. */
 const HANDLED: readonly MotionKind[] = ['travel', 'turn', 'breathe', 'follow'];
 
-/** Pictures in between are written in files: the screen keeps them, and offers none. */
+/** Kinds that the screen offers: a `morph` that is in the file is kept, but cannot be made here. */
 const OFFERED: readonly MotionKind[] = ['travel', 'turn', 'breathe', 'follow', 'wave', 'stagger'];
 
-/** How the picture before drives to the frame. */
+/** How the picture before drives to the frame on the stage; nothing while several frames are chosen. */
 export function MotionSection() {
   const editing = useEditing();
   const index = useEditor((s) => s.frame);

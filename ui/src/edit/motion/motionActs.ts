@@ -7,13 +7,13 @@ import type { Frame, Show } from '../../model/show';
 import { notify } from '../../session/notices';
 import type { Editing } from '../editing';
 
-/** Lets the picture before the frame drive to it in another way; null: the planner's shortest. */
+/** Gives the frame on the stage the usual motion of a kind; null: the planner's shortest drive. Not the first frame. */
 export function chooseMotion(editing: Editing, kind: MotionKind | null) {
   const { before } = framesNow(editing);
   if (before) void applyMotion(editing, kind && usualMotion(kind, before));
 }
 
-/** Gives the frame a motion, and its pixels the places that it leads to. */
+/** Gives the frame on the stage a motion and, where the picture moves as a whole, its pixels the places it leads to. */
 export async function applyMotion(editing: Editing, motion: Motion | null) {
   const { show, before, frame } = framesNow(editing);
   if (!before || !frame) return;
@@ -28,7 +28,7 @@ function framesNow({ editor }: Editing) {
   return { show, before: show.frames[frame - 1], frame: show.frames[frame] };
 }
 
-/** Where the module says that pixels are after a motion. */
+/** Where the module says that the pixels of `before` are after a motion; `none`: it failed, and a notice says why. */
 async function placesAfter(
   { maker }: Editing,
   show: Show,

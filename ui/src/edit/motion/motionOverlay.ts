@@ -5,7 +5,7 @@ import { canvasFromStage, type Camera } from '../../stage/camera';
 import type { Editing } from '../editing';
 import { beginHandles, dashedLine, roundHandle } from '../handlePaint';
 
-/** The motion whose handles the stage shows; null: none. `drawn`: as it is while a handle is dragged. */
+/** The motion of the frame on the stage, if its settings are open; null: none. `drawn` replaces it during a drag. */
 export function shownMotion(
   { show, frame }: EditorState,
   isOpen: boolean,
@@ -15,7 +15,7 @@ export function shownMotion(
   return isOpen && before && motion ? { motion, before } : null;
 }
 
-/** The motion whose handles a pointer may take. */
+/** The motion with handles that a pointer may take: that of the frame, with the arrow tool; null: none. */
 export const motionAtHand = ({ editor, moving, tool }: Editing) =>
   tool.get() === 'arrow' ? shownMotion(editor.state.get(), moving.get(), null) : null;
 

@@ -11,7 +11,7 @@ interface Props {
   onClose: () => void;
 }
 
-/** Proposes air times with which pictures begin with bars, and says what changes. */
+/** Proposes air times with which pictures begin with bars, lists the changes, and makes them if the user agrees. */
 export function ArrangeDialog({ opened, onClose }: Props) {
   return (
     <Modal opened={opened} onClose={onClose} title="Arrange to music" size="lg">

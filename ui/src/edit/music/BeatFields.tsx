@@ -19,7 +19,7 @@ import { TapButton } from './TapButton';
 import { useBeats } from './useBeats';
 import styles from './Music.module.css';
 
-/** Corrections of beats: their button, what it does in the history, and the beats after it. */
+/** Corrections of beats: label of the button, label in the history, and the beats after it. */
 const CHANGES: [string, string, (beats: Beats) => Beats][] = [
   ['×2', 'Twice as many beats', doubled],
   ['÷2', 'Every second beat', halved],
@@ -29,7 +29,7 @@ const CHANGES: [string, string, (beats: Beats) => Beats][] = [
   ['10 ms later', 'Beats 10 ms later', (beats) => nudged(beats, 0.01)],
 ];
 
-/** The beats of the music, and their corrections. Those of another tempo octave are one press away. */
+/** Tempo and bars of the music, buttons that correct them, and those that find beats anew. `lasts_s`: the music's. */
 export function BeatFields({ lasts_s }: { lasts_s: number }) {
   const editing = useEditing();
   const beats = useBeats();
@@ -101,7 +101,7 @@ export function BeatFields({ lasts_s }: { lasts_s: number }) {
   );
 }
 
-/** A steady tempo whose first beat is that of `beats`. */
+/** Beats of a steady tempo, beats a minute, from the first of the given beats on. */
 function steadyAt({ grid, perBar }: Beats, bpm: number): Beats {
   const offset_s = grid.of === 'steady' ? grid.offset_s : (grid.times_s[0] ?? 0);
   return { perBar, grid: { of: 'steady', bpm, offset_s } };

@@ -10,7 +10,7 @@ import { useEditing } from '../context';
 import { useBeats } from './useBeats';
 import { Waveform } from './Waveform';
 
-/** The waveform with its beats, and a button that lets it be heard. */
+/** The waveform of the music with its beats, and a button that plays the music. */
 export function HeardWave({ music: { hash, lasts_s, peaks } }: { music: SeenMusic }) {
   const { listening, preview } = useEditing();
   const beats = useBeats();

@@ -4,13 +4,13 @@ import { useStore } from '../../base/store';
 import { beatsOf, PER_BAR, TAPS_LEAST, tapped, withBeats } from '../../model/beats';
 import { useEditing } from '../context';
 
-/** Taps further apart begin anew, seconds. */
+/** A tap this long after the last one, or longer, begins anew, seconds. */
 const PAUSE_S = 3;
 
-/** The step of the history. */
+/** Label of the change in the history. */
 const LABEL = 'Tapped beats';
 
-/** Takes the tempo from taps along the music that is heard; each tap is one press. */
+/** A button to press with each beat of the music, from which the tempo is taken. The first press starts the music. */
 export function TapButton({ lasts_s }: { lasts_s: number }) {
   const { editor, listening, music } = useEditing();
   const isHeard = useStore(listening.at_s, (at) => at !== null);
@@ -30,7 +30,7 @@ export function TapButton({ lasts_s }: { lasts_s: number }) {
     const perBar = beatsOf(editor.state.get().show)?.perBar ?? PER_BAR;
     const beats = tapped(all, perBar);
     if (!beats) return;
-    // Further taps make the same step of the history better.
+    // A further tap replaces the step of the history that the taps before it made.
     const { past } = editor.state.get().history;
     if (all.length > TAPS_LEAST && past[past.length - 1]?.label === LABEL) editor.undo();
     editor.change(LABEL, (show) => withBeats(show, beats));

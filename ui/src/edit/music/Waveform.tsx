@@ -11,16 +11,17 @@ interface Props {
   to_s: number;
   /** The position that is heard, seconds; null: none. */
   at_s: number | null;
-  /** Steps of the drawing, which is stretched to the width that it gets. */
+  /** Steps of the drawing from left to right; it is stretched to the element's width. */
   columns?: number;
-  /** Pressed, seconds. */
+  /** Called when the drawing is pressed, with the position in the file, seconds. */
   onSeek?: (at_s: number) => void;
 }
 
-/** Columns of a drawing as wide as a panel. */
+/** Columns of a drawing where none are given. */
 const COLUMNS = 600;
+/** Height of the drawing, in units of the picture. */
 const HEIGHT = 60;
-/** Beats nearer to each other than this are not drawn, columns: bars are. */
+/** If beats are nearer to each other than this on average, in columns, only the bars are drawn. */
 const DENSE = 5;
 
 /** Loudness over time, with lines at bars and beats. */
@@ -63,7 +64,7 @@ export function Waveform(props: Props) {
 const column = (at_s: number, from_s: number, to_s: number, columns: number) =>
   Number((((at_s - from_s) / Math.max(1e-6, to_s - from_s)) * columns).toFixed(1));
 
-/** The outline of the peaks: the largest of each column, mirrored. */
+/** The outline of the peaks as an SVG path: the largest of each column, above and below the middle. */
 function wavePath(peaks: Float32Array, from_s: number, to_s: number, columns: number): string {
   const heights = Array.from({ length: columns }, (_, i) => {
     const at = (share: number) => (from_s + (share / columns) * (to_s - from_s)) * PEAKS_PER_S;

@@ -3,9 +3,9 @@ import { createStore, type Readable } from '../../base/store';
 import type { Sounding } from '../../music/sounding';
 import { notify } from '../../session/notices';
 
-/** Hearing the file of the music by itself, without the show. */
+/** Plays the file of the music by itself, without the show. */
 export interface Listening {
-  /** The position that is heard, seconds of the file; null: nothing is. */
+  /** The position that is heard, seconds of the file; null: nothing is heard. */
   at_s: Readable<number | null>;
   start(hash: string, from_s: number, lasts_s: number): Promise<void>;
   stop(): void;

@@ -6,10 +6,10 @@ import { decodeMusic, LONG_S } from '../../music/decode';
 import { notify } from '../../session/notices';
 import type { Editing, TakenFile } from '../editing';
 
-/** What a file chooser offers. Others may be dropped: what a file is, its bytes say. */
+/** What a file chooser offers. A dropped file may have another ending: its bytes say what it is. */
 export const MUSIC_FILES = 'audio/*,.mp3,.ogg,.oga,.opus,.wav,.flac,.m4a,.aac';
 
-/** Makes a file the music of the show, with the beats that are found in it, as one step of the history. */
+/** Makes a file the music of the show, with the beats found in it, if any, as one step of the history. */
 export async function takeMusic(editing: Editing, { hash, name, mediaType, bytes }: TakenFile) {
   const { editor, maker, music } = editing;
   try {
@@ -32,7 +32,7 @@ export async function takeMusic(editing: Editing, { hash, name, mediaType, bytes
   }
 }
 
-/** Finds the beats of the show's music again; null: it has none, or they cannot be found, which is said. */
+/** Finds the beats of the show's music again; null: that failed, and a notice says why. */
 export async function findBeatsAgain({ maker, music }: Editing): Promise<Beats | null> {
   try {
     const { samples, rate_Hz } = await music.decode();

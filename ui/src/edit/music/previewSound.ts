@@ -4,5 +4,5 @@ type OnOff = 'on' | 'off';
 
 const isOnOff = (text: string | null): text is OnOff => text === 'on' || text === 'off';
 
-/** Whether the music is heard with the preview on this screen. */
+/** Whether this screen plays the music with the preview. */
 export const previewSound = createChoice<OnOff>('lightbots-preview-sound', 'on', isOnOff);

@@ -6,7 +6,7 @@ import { notify } from '../../session/notices';
 import type { Editing } from '../editing';
 import { previewSound } from './previewSound';
 
-/** Lets the music be heard with the preview: it begins with the air time of the first frame. */
+/** Plays the music with the preview, if that is switched on: second 0 is the start of the first frame's air time. */
 export function usePreviewSound({ preview, editor, full, sounding, listening }: Editing) {
   const running = useStore(preview.running);
   const isOn = useStore(previewSound) === 'on';

@@ -9,12 +9,12 @@ interface Props {
   id: string;
   index: number;
   frame: Frame;
-  /** Places in the lane, CSS pixels. */
+  /** Left end within its group, CSS pixels, as are all fields with `_px` and `width`. */
   left: number;
   width: number;
   travel_px: number;
   travel_s: number;
-  /** Shortest travel time; null: the drive is not planned. */
+  /** Shortest travel time, seconds; null: the drive is not planned. */
   least_s: number | null;
   least_px: number;
   isFastest: boolean;
@@ -26,12 +26,12 @@ interface Props {
   label: string;
 }
 
-/** A narrower block has no texts, not even its number, or no edges to drag, CSS pixels. */
+/** Least width of a block with texts, with its number, and with edges to drag, CSS pixels. */
 const [TEXT_PX, NUMBER_PX, EDGE_PX] = [44, 24, 14];
-/** Widths that the longer and the shorter text of a drive need, CSS pixels. */
+/** Least widths of a drive for its longer and its shorter text, CSS pixels. */
 const [LONG_PX, SHORT_PX] = [104, 40];
 
-/** The travel time as text that fits into the block. */
+/** The travel time as text that fits the drive's width; empty without a plan or room. */
 function travelText({ travel_s, least_s, travel_px, isFastest }: Props): string {
   if (least_s === null || travel_px < SHORT_PX) return '';
   if (travel_px < LONG_PX) return secondsText(travel_s);
@@ -39,7 +39,7 @@ function travelText({ travel_s, least_s, travel_px, isFastest }: Props): string 
   return `${secondsText(travel_s)} · ${least}`;
 }
 
-/** A frame on the timeline: the drive to it hollow, because it is planned, and its air time in its colours. */
+/** A frame on the timeline: first the drive to it, hatched, then its air time in the colours of its pixels. */
 export const FrameBlock = memo(function FrameBlock(props: Props) {
   const { left, width } = props;
   return (
@@ -48,7 +48,7 @@ export const FrameBlock = memo(function FrameBlock(props: Props) {
       className={styles.block}
       role="option"
       aria-selected={props.isChosen}
-      // It is the name too: what is in the block is for eyes alone.
+      // Also the name for screen readers: what is in the block is hidden from them.
       title={props.label}
       data-frame={props.index}
       data-current={props.isCurrent || undefined}
@@ -60,7 +60,7 @@ export const FrameBlock = memo(function FrameBlock(props: Props) {
   );
 });
 
-/** What is in a block. It stands alone, because a drag moves all blocks after it, and what is in them stays the same. */
+/** What is in a block. A component of its own, so that a block that only moves does not render it again. */
 const Inside = memo(function Inside(props: Props) {
   const { index, frame, width, travel_px, go } = props;
   const isRoomy = width >= TEXT_PX;

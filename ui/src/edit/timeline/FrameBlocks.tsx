@@ -5,21 +5,21 @@ import { FrameBlock } from './FrameBlock';
 import type { TrackProps } from './timelineView';
 import styles from './Timeline.module.css';
 
-/** Blocks beside each other that hang on one element: a drag moves all later blocks alike. */
+/** Number of neighbouring blocks in one element, so that a drag that moves later blocks moves few elements. */
 const GROUP = 12;
 
 interface Props extends Omit<TrackProps, 'show'> {
-  /** The frame on the stage. */
+  /** Index of the frame on the stage. */
   at: number;
   chosen: ReadonlySet<number>;
-  /** Frames in which the plan has an error. */
+  /** Indices of frames in which the plan has an error. */
   wrong: ReadonlySet<number | null>;
 }
 
-/** The blocks of the frames that are in sight. */
+/** The blocks of the frames in sight, and of the frame on the stage. */
 export function FrameBlocks({ blocks, axis, drawn, at, chosen, wrong }: Props) {
   const isDrawn = (block: Block, index: number) =>
-    // The chosen one is there also when it is out of sight: the list says which it is.
+    // The frame on the stage is there even out of sight, because the list box names it as active.
     index === at ||
     (xOf(axis, block.driveFrom_s) < drawn.to_px && xOf(axis, block.until_s) > drawn.from_px);
   const blockOf = (block: Block, index: number, origin_px: number) => {
@@ -67,5 +67,5 @@ const groupsOf = (blocks: readonly Block[]) =>
     blocks.slice(nth * GROUP, (nth + 1) * GROUP),
   );
 
-/** The same number for differences that were computed in other ways, so that nothing is drawn for rounding. */
+/** Rounded to a thousandth, so that rounding errors do not draw a block again. */
 const steady = (value: number) => Math.round(value * 1e3) / 1e3;

@@ -11,7 +11,7 @@ import { framesHand } from './framesHand';
 import { useTimelineView, type TrackProps } from './timelineView';
 import styles from './Timeline.module.css';
 
-/** The frames on the timeline. */
+/** The frames on the timeline as a list box, with pointer and keys to choose, change and rename them. */
 export function FramesLane({ blocks, axis, drawn }: TrackProps) {
   const editing = useEditing();
   const { editor } = editing;

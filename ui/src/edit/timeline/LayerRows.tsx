@@ -14,7 +14,7 @@ import { layerPaint } from './paint';
 import { layerHeight, revealRow, useTimelineView, type TrackProps } from './timelineView';
 import styles from './Timeline.module.css';
 
-/** The layers of light, the uppermost first, each with a bar over the time in which it shines. */
+/** The layers of light, the uppermost first, each with a bar from the begin to the end of its time. */
 export function LayerRows({ show, blocks, axis, drawn }: TrackProps) {
   const editing = useEditing();
   const view = useTimelineView();
@@ -47,7 +47,7 @@ export function LayerRows({ show, blocks, axis, drawn }: TrackProps) {
     editing.layer.set(index);
     view.status.set(layerText(show, blocks, index));
     const part = target.closest<HTMLElement>('[data-part]')?.dataset.part as LayerPart | undefined;
-    // A finger on a bar scrolls the timeline; on its ends it drags.
+    // A finger in the middle of a bar scrolls the timeline; on an end of it, it drags the end.
     if (!part || (part === 'whole' && event.pointerType === 'touch')) return;
     const drag = dragLayer(editing, view, index, part);
     if (drag) followPointer(event, view.scroller, drag);
@@ -66,7 +66,7 @@ export function LayerRows({ show, blocks, axis, drawn }: TrackProps) {
     >
       {layers.map((layer, index) => {
         const row = layers.length - 1 - index;
-        // The chosen one is there also when it is out of sight: the list says which it is.
+        // The chosen layer is there even out of sight, because the list box names it as active.
         const isDrawn = row >= drawn.fromRow && row < drawn.toRow;
         if (!isDrawn && index !== chosen) return null;
         const bar = layerBar(show, blocks, layer);
@@ -90,7 +90,7 @@ export function LayerRows({ show, blocks, axis, drawn }: TrackProps) {
   );
 }
 
-/** The names of the layers, which stay at the left; the options of the list say them too. */
+/** The names of the layers, which stay at the left; hidden from screen readers, which get them from the list. */
 export function LayerNames({ show, drawn }: Pick<TrackProps, 'show' | 'drawn'>) {
   const editing = useEditing();
   const chosen = useStore(editing.layer);

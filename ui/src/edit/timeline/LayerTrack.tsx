@@ -6,9 +6,9 @@ interface Props {
   index: number;
   title: string;
   label: string;
-  /** Place in the list, CSS pixels. */
+  /** Distance from the top of the list, CSS pixels. */
   top: number;
-  /** Left end of the bar in the lane, CSS pixels; null: its frames are gone. */
+  /** Left end of the bar in the lane, CSS pixels; null: there is no bar, because its frames are gone. */
   left: number | null;
   width: number;
   hasEnds: boolean;

@@ -18,7 +18,7 @@ const SILENCE = new Float32Array(0);
 /** Least distance of bars with a number, CSS pixels. */
 const NUMBER_PX = 36;
 
-/** The loudness of the music, with its bars and beats, which a drag moves. Its second 0 is the start of show time. */
+/** The loudness of the music with its bars and beats; a drag moves all beats. Second 0 of the file is show time 0. */
 export function MusicLane({ beats, axis, drawn }: Props) {
   const { music, editor } = useEditing();
   const state = useStore(music.state);
@@ -72,7 +72,7 @@ export function MusicLane({ beats, axis, drawn }: Props) {
   );
 }
 
-/** Bars with their numbers: as many as leave room between the numbers. */
+/** Bars with their numbers, counted from 1: all, or every 2nd, 4th, 8th … so that the numbers have room. */
 function numbered(beats: readonly Beat[], scale: number): { at_s: number; bar: number }[] {
   const bars = beats.filter(({ isBar }) => isBar).map(({ at_s }, i) => ({ at_s, bar: i + 1 }));
   const [first, last] = [bars[0], bars[bars.length - 1]];

@@ -10,11 +10,11 @@ import styles from './Timeline.module.css';
 interface Props {
   blocks: readonly Block[];
   axis: Axis;
-  /** Whether it says its moment. */
+  /** Whether the playhead shows its moment as text, and keeps itself in sight during a preview. */
   isLabelled?: boolean;
 }
 
-/** The moment that the floor shows. It stands alone, because each picture of a preview moves it. */
+/** A line at the moment that the stage shows. A component of its own, because it moves often during a preview. */
 export function Playhead({ blocks, axis, isLabelled = false }: Props) {
   const view = useTimelineView();
   const { preview } = useEditing();

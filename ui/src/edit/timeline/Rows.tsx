@@ -6,7 +6,7 @@ export interface TimelineRow {
   title: string;
   icon?: ReactNode;
   height: 'ruler' | 'marks' | 'frames' | 'music';
-  /** What lies beside its name, as wide as the whole timeline. */
+  /** What lies beside the name, as wide as the whole timeline. */
   lane: ReactNode;
 }
 
@@ -18,7 +18,7 @@ interface Props {
   children: ReactNode;
 }
 
-/** Rows with their names, which stay at the left: in one column, because each that stays costs a layer of the browser. */
+/** Rows with their names at the left, in one sticky column, because each sticky element costs drawing time. */
 export const Rows = ({ rows, width, children }: Props) => (
   <>
     <div className={styles.names} data-names>

@@ -6,7 +6,7 @@ import { scrubTo } from './timelineDrag';
 import { useTimelineView, type Drawn } from './timelineView';
 import styles from './Timeline.module.css';
 
-/** Seconds of show time; a press or a drag puts that moment on the stage. */
+/** A ruler of show time; a press or a drag puts the moment under the pointer on the stage. */
 export function Ruler({ axis, drawn }: { axis: Axis; drawn: Drawn }) {
   const editing = useEditing();
   const view = useTimelineView();
@@ -15,7 +15,7 @@ export function Ruler({ axis, drawn }: { axis: Axis; drawn: Drawn }) {
     <div
       className={styles.ruler}
       data-testid="timeline-ruler"
-      // The slider above is the same for the keyboard.
+      // For the keyboard, the slider above the timeline does the same.
       aria-hidden
       onPointerDown={(event) => {
         if (event.button !== 0) return;

@@ -14,7 +14,7 @@ import styles from './Timeline.module.css';
 
 const NO_BEATS: readonly Beat[] = [];
 
-/** The show over time: frames with their drives, layers of light, sections, markers, cues and music. */
+/** The show over time: frames with drives and cues, layers of light, sections, markers, and music or beats if any. */
 export default function TimelinePanel() {
   const editing = useEditing();
   const [view] = useState(() => createTimelineView(editing));
@@ -45,7 +45,7 @@ export default function TimelinePanel() {
   );
 }
 
-/** Beats of the show from its start to this moment or a little later, seconds; the same list while they stay. */
+/** Beats from show time 0 to `to_s`, rounded up to a minute, seconds; the same list until beats or minute change. */
 function useBeatsTo(to_s: number): readonly Beat[] {
   const beats = useBeats();
   // A drag that makes the show longer need not list them anew each time.

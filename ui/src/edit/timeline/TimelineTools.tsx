@@ -16,7 +16,7 @@ import { fitTimeline } from './timelineDrag';
 import { useTimelineView, zoomTimeline, ZOOM_STEP } from './timelineView';
 import styles from './Timeline.module.css';
 
-/** Frames, marks, snapping and zoom; in the middle, what was done last. */
+/** The bar over the timeline: buttons for frames, marks, snapping and zoom; in the middle, what was done last. */
 export const TimelineTools = memo(function TimelineTools() {
   const editing = useEditing();
   const view = useTimelineView();
@@ -65,7 +65,7 @@ export const TimelineTools = memo(function TimelineTools() {
   );
 });
 
-/** What was done last. It stands alone, because every step of a drag changes it. */
+/** What was done last. A component of its own, because every step of a drag changes it. */
 function Status() {
   const status = useStore(useTimelineView().status);
   return (

@@ -14,7 +14,7 @@ import { fitTimeline } from './timelineDrag';
 import { useTimelineView, zoomTimeline, ZOOM_STEP, type TrackProps } from './timelineView';
 import styles from './Timeline.module.css';
 
-/** The rows of the timeline, which scroll together. `rows`: further rows above the frames. */
+/** The rows of the timeline, which scroll together. `rows`: further rows just above the frames. */
 export function Tracks({
   show,
   blocks,
@@ -84,7 +84,7 @@ const markersRow = (tracks: TrackProps): TimelineRow => ({
 
 const isTyping = ({ target }: KeyboardEvent) => (target as HTMLElement).tagName === 'INPUT';
 
-/** The element that scrolls. */
+/** A ref for the element that scrolls; attaches the view to the element. */
 function useScroller(axis: Axis) {
   const view = useTimelineView();
   const element = useRef<HTMLDivElement>(null);

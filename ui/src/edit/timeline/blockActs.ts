@@ -21,7 +21,7 @@ const EDGE_LABEL: Record<BlockEdge, string> = { travel: 'Travel time', air: 'Air
 export const chosenFrames = ({ editor }: Editing) =>
   [...editor.state.get().frames].sort((a, b) => a - b);
 
-/** A frame with its times, for people. */
+/** A frame with its times, as text for people. */
 export function blockText(block: Block, index: number): string {
   const { frame, least_s, go } = block;
   const travel_s = block.shownFrom_s - block.driveFrom_s;
@@ -34,14 +34,14 @@ export function blockText(block: Block, index: number): string {
   return `${name}: ${drive}; shown for ${shortSeconds(frame.airTime_s)} s${wait}${nailed}`;
 }
 
-/** Says in the status line what the frame on the stage is like now. */
+/** Writes the frame on the stage with its times into the status line. */
 export function sayBlock(editing: Editing, view: TimelineView) {
   const { frame } = editing.editor.state.get();
   const block = blocksNow(editing, view)[frame];
   if (block) view.status.set(blockText(block, frame));
 }
 
-/** Drags an edge of a block; chosen frames change alike. */
+/** A drag of an edge of a block; chosen frames change alike. Null: no such block, or its drive is not planned yet. */
 export function dragEdge(
   editing: Editing,
   view: TimelineView,
@@ -80,7 +80,7 @@ export function stepEdge(editing: Editing, view: TimelineView, edge: BlockEdge, 
   sayBlock(editing, view);
 }
 
-/** Lets a frame wait for GO, or not. */
+/** Lets the show wait for GO after a frame, or go on by itself if it waits or repeats. */
 export function toggleCue(editing: Editing, index: number) {
   editing.editor.change('Cue', (show) => {
     const isThere = cueOf(show, show.frames[index]) !== null;
@@ -88,14 +88,14 @@ export function toggleCue(editing: Editing, index: number) {
   });
 }
 
-/** Lets the chosen frames wait for GO, or go on by themselves if the one on the stage waits. */
+/** Lets the show wait for GO after the chosen frames, or go on by itself if the frame on the stage has a cue. */
 export function toggleCues(editing: Editing, view: TimelineView) {
   const { show, frame } = editing.editor.state.get();
   acts.setCue(editing, cueOf(show, show.frames[frame]) === null ? '' : null);
   sayBlock(editing, view);
 }
 
-/** Nails the picture of the frame on the stage to where it begins, or frees it. */
+/** Fixes the frame on the stage to the show time at which it begins now, or frees it; not the first frame. */
 export function toggleNail(editing: Editing, view: TimelineView) {
   const { frame } = editing.editor.state.get();
   const block = blocksNow(editing, view)[frame];
@@ -105,7 +105,7 @@ export function toggleNail(editing: Editing, view: TimelineView) {
   sayBlock(editing, view);
 }
 
-/** Scrolls the frame on the stage into sight. */
+/** Scrolls the frame at `index` into sight, unless a preview is on the stage. */
 export function revealFrame(editing: Editing, view: TimelineView, index: number) {
   const blocks = blocksNow(editing, view);
   const block = blocks[index];

@@ -2,7 +2,7 @@ import type { PointerEvent as ReactPointerEvent } from 'react';
 
 /** What a drag on the timeline does. */
 export interface PointerDrag {
-  /** The pointer is that far to the right of where it went down, CSS pixels of the lanes. */
+  /** The pointer is `by_px` to the right of where it went down, CSS pixels, with what was scrolled meanwhile. */
   move(by_px: number, event: PointerEvent): void;
   end(): void;
   cancel(): void;
@@ -10,11 +10,12 @@ export interface PointerDrag {
 
 /** A pointer that stays within this has not dragged, CSS pixels. */
 const STILL_PX = 3;
-/** A pointer this close to a side of the timeline scrolls it by up to `SCROLL_PX` a frame. */
+/** A pointer this close to the left or right side of the timeline, or beyond it, scrolls it, CSS pixels. */
 const SIDE_PX = 40;
+/** Fastest scrolling, CSS pixels at each refresh of the screen. */
 const SCROLL_PX = 14;
 
-/** Follows a pointer from where it went down until it is let go; Escape takes back what it did. */
+/** Follows a pointer until it is let go. Escape, or leaving the window for another, cancels. `scroller`: may scroll. */
 export function followPointer(
   down: ReactPointerEvent,
   scroller: HTMLElement | null,
@@ -22,9 +23,9 @@ export function followPointer(
 ) {
   const stop = new AbortController();
   const options = { signal: stop.signal };
-  // Also outside of the window; and the browser need not look what is under the pointer.
+  // The drag goes on outside the window, and the browser need not look up what is under the pointer.
   (down.target as Element).setPointerCapture(down.pointerId);
-  // The scroller stays where it is, and only this scrolls it meanwhile: reading either costs a layout.
+  // Read once: the scroller does not move, nothing else scrolls it meanwhile, and reading costs a layout.
   const box = scroller?.getBoundingClientRect();
   let scrolled_px = 0;
   let [last, request] = [null as PointerEvent | null, 0];
@@ -84,7 +85,7 @@ export function followPointer(
   );
 }
 
-/** The click that ends a drag chooses nothing. */
+/** Keeps the click that follows the end of a drag from everything on the page. */
 function keepFromClick() {
   const keep = (event: Event) => event.stopPropagation();
   window.addEventListener('click', keep, { capture: true, once: true });

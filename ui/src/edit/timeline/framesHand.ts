@@ -9,7 +9,7 @@ import type { TimelineView } from './timelineView';
 
 type Lasso = { left: number; width: number } | null;
 
-/** What a pointer on the frames of the timeline does: drags edges, chooses frames, and sets cues. */
+/** What a pointer on the frames of the timeline does: drags edges, chooses and renames frames, and sets cues. */
 export function framesHand(
   editing: Editing,
   view: TimelineView,
@@ -23,7 +23,7 @@ export function framesHand(
   };
   const adds = (event: MouseEvent) => event.ctrlKey || event.metaKey || event.shiftKey;
 
-  /** A drag over blocks or beside them chooses what it touches. */
+  /** A drag over blocks or beside them chooses the frames that it touches; with Ctrl or Shift, in addition. */
   const chooseAround = (event: PointerEvent) => {
     const lane = event.currentTarget.getBoundingClientRect();
     const from_px = event.clientX - lane.left;
@@ -63,7 +63,7 @@ export function framesHand(
             drag.move(by_px, moved);
           },
         });
-        // A finger elsewhere scrolls the timeline.
+        // A finger that is not on an edge scrolls the timeline.
       } else if (event.pointerType !== 'touch') chooseAround(event);
     },
     click(event: MouseEvent) {

@@ -10,7 +10,7 @@ import type { PointerDrag } from './followPointer';
 import { blocksNow, dragOf } from './timelineDrag';
 import type { TimelineView } from './timelineView';
 
-/** A layer with when it shines, for people. */
+/** A layer with the time in which it shines, as text for people; empty: there is no such layer. */
 export function layerText(show: Show, blocks: readonly Block[], index: number): string {
   const layer = layersOf(show)[index];
   if (!layer) return '';

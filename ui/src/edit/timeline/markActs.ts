@@ -13,7 +13,7 @@ export function addMarker(editing: Editing, view: TimelineView) {
   nameLast(editing, view, 'marker');
 }
 
-/** Adds a section over the chosen frames. */
+/** Adds a section from the first drive of the chosen frames to their last air time, and lets the user name it. */
 export function addSection(editing: Editing, view: TimelineView) {
   const blocks = blocksNow(editing, view);
   const chosen = chosenFrames(editing).flatMap((index) => blocks[index] ?? []);
@@ -48,7 +48,7 @@ export function removeMark({ editor }: Editing, view: TimelineView, { kind, inde
   view.status.set(kind === 'marker' ? 'Marker deleted' : 'Section deleted');
 }
 
-/** Where a part of a mark is, seconds; a marker has one part. */
+/** Show time of a part of a mark, seconds: of a marker its moment, of a section its begin or end. */
 export function markMoment(show: Show, { kind, index }: ChosenMark, part: marks.SectionPart) {
   if (kind === 'marker') return marks.markersOf(show)[index]?.at_s;
   const section = marks.sectionsOf(show)[index];
@@ -60,7 +60,7 @@ const moved = (show: Show, { kind, index }: ChosenMark, part: marks.SectionPart,
     ? marks.moveMarker(show, index, to_s)
     : marks.moveSection(show, index, part, to_s);
 
-/** A marker or section with its moments, for people. */
+/** A marker or section with its moments, as text for people; empty: there is no such mark. */
 export function markText(show: Show, { kind, index }: ChosenMark): string {
   if (kind === 'marker') {
     const marker = marks.markersOf(show)[index];

@@ -4,7 +4,7 @@ import { LAYER_KINDS, paletteOf } from '../../model/layerKinds';
 import type { Layer } from '../../model/layers';
 import type { Pixel } from '../../model/show';
 
-/** A gradient of colours as a style sheet has it; undefined: there is none. */
+/** A CSS background with these colours from left to right; undefined: there are none. */
 function gradient(colours: readonly Rgb[]): string | undefined {
   const [first] = colours;
   if (first === undefined) return undefined;
@@ -14,7 +14,7 @@ function gradient(colours: readonly Rgb[]): string | undefined {
 
 export const framePaint = (pixels: readonly Pixel[]) => gradient(frameColours(pixels));
 
-/** The colours of a layer; undefined: its effect has colours of its own. */
+/** A CSS background in the colours of a layer's palette; undefined: its effect has no palette. */
 export const layerPaint = (layer: Layer) =>
   LAYER_KINDS[layer.kind]?.settings.includes('palette')
     ? gradient(paletteOf(layer).map(({ color }) => color))

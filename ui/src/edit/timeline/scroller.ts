@@ -1,12 +1,12 @@
 import type { Axis } from '../../model/timelineAxis';
 import { firstScale, namesWidth, noteSeen, zoomTimeline, type TimelineView } from './timelineView';
 
-/** Zoom of a wheel with Ctrl: its exponent for each unit of the wheel. */
+/** Exponent of the zoom for each unit of `deltaY` of a wheel with Ctrl. */
 const WHEEL = 0.0025;
 
 /**
- * Lets the timeline scroll in an element: notes what is seen of it, and zooms by the wheel with Ctrl. Returns a function
- * that ends this.
+ * Connects the timeline's view with the element that scrolls: sets the first zoom, notes which part is seen, and
+ * zooms by the wheel with Ctrl. Returns a function that ends this.
  */
 export function attachScroller(view: TimelineView, scroller: HTMLElement, axis: Axis): () => void {
   view.scroller = scroller;

@@ -25,8 +25,8 @@ export function scrubTo({ editor, preview, settled }: Editing, at_s: number) {
 }
 
 /**
- * A drag on the timeline that changes the show as one step of the history. `change` makes the show that the drag began
- * with into the one in which the dragged thing is at a moment; `from_s`: where it was.
+ * A drag on the timeline that changes the show as one step of the history. `from_s`: show time of the dragged thing at
+ * the beginning. `change`: given the show and blocks of the beginning, the show in which the thing is at `to_s`.
  */
 export function dragOf(
   editing: Editing,
@@ -64,7 +64,7 @@ export function dragOf(
   };
 }
 
-/** Shows the whole timeline. */
+/** Zooms so that the whole timeline is seen, within the limits of the zoom, and scrolls to its begin. */
 export function fitTimeline(editing: Editing, view: TimelineView) {
   const blocks = blocksNow(editing, view);
   const axis = axisOf(editing.editor.state.get().show, blocks, view.scale.get());

@@ -8,7 +8,7 @@ import { plannedDrives, type Block, type PlannedDrives } from '../../model/timel
 import { markersOf, sectionsOf } from '../../model/timelineMarks';
 import type { Editing } from '../editing';
 
-/** A marker or a section, by its place in the document. */
+/** A marker or a section, by its index in the document's list. */
 export interface ChosenMark {
   kind: 'marker' | 'section';
   index: number;
@@ -18,7 +18,7 @@ export interface ChosenMark {
 export interface TimelineView {
   /** The element that scrolls; null while the timeline is not on the page. */
   scroller: HTMLElement | null;
-  /** CSS pixels a second. */
+  /** Zoom, CSS pixels a second. */
   scale: Store<number>;
   /** The part of the timeline that is drawn: what is seen, and some more around it. */
   drawn: Store<Drawn>;
@@ -27,7 +27,7 @@ export interface TimelineView {
   /** What was done last, for the status line. */
   status: Store<string>;
   mark: Store<ChosenMark | null>;
-  /** The marker or section that is being renamed. */
+  /** The marker or section that is being renamed; null: none. */
   naming: Store<ChosenMark | null>;
   drives: Store<PlannedDrives>;
   /** Moments of beats that drags snap to, seconds of show time. */
@@ -41,12 +41,12 @@ export interface Drawn {
   /** Ends in the lanes, CSS pixels. */
   from_px: number;
   to_px: number;
-  /** The first row of layers, and the one after the last. */
+  /** The first drawn row of layers, the uppermost being 0, and the row after the last drawn one. */
   fromRow: number;
   toRow: number;
 }
 
-/** What every row of the timeline shows its part of. */
+/** What the rows of the timeline are drawn from. */
 export interface TrackProps {
   show: Show;
   blocks: readonly Block[];
@@ -54,10 +54,10 @@ export interface TrackProps {
   drawn: Drawn;
 }
 
-/** A step of the zoom. */
+/** Factor of one step of the zoom. */
 export const ZOOM_STEP = 1.4;
 
-/** Zoom before the timeline was measured, and the least and largest one that it begins with, CSS pixels a second. */
+/** Zoom before the timeline is measured, then the least and the largest zoom to begin with, CSS pixels a second. */
 const [FIRST_SCALE, FIRST_SCALE_MIN, FIRST_SCALE_MAX] = [24, 16, 60];
 
 export function createTimelineView({ editor, settled }: Editing): TimelineView {
@@ -88,7 +88,7 @@ export function useTimelineView(): TimelineView {
 /** Room after the last thing on the timeline, into which its end can be dragged, CSS pixels. */
 const ROOM_PX = 120;
 
-/** The timeline of a show at a zoom: from the first drive to the last thing on it. */
+/** The timeline of a show at a zoom: from the first drive to its last thing, and `ROOM_PX` more. */
 export function axisOf(show: Show, blocks: readonly Block[], scale: number): Axis {
   const from_s = Math.min(0, blocks[0]?.driveFrom_s ?? 0);
   return { from_s, to_s: endOf(show, blocks) + ROOM_PX / scale, scale };
@@ -106,22 +106,25 @@ const endOf = (show: Show, blocks: readonly Block[]) =>
 export const namesWidth = ({ scroller }: TimelineView) =>
   scroller?.querySelector('[data-names]')?.getBoundingClientRect().width ?? 0;
 
-/** Width of the part of the lanes that is seen, CSS pixels. */
+/** Width of the part of the lanes in sight, CSS pixels; 0 while the timeline is not on the page. */
 export const seenWidth = (view: TimelineView) =>
   Math.max(0, (view.scroller?.clientWidth ?? 0) - namesWidth(view));
 
-/** The zoom that shows the whole timeline. */
+/** The zoom that shows the whole timeline without its `ROOM_PX`, within the limits of the zoom. */
 export const wholeScale = (view: TimelineView, axis: Axis) =>
   fittingScale(axis.to_s - ROOM_PX / axis.scale - axis.from_s, seenWidth(view) - 24);
 
-/** The zoom that a timeline begins with: all of it if that can be read. */
+/** The zoom that a timeline begins with: the whole timeline, but within `FIRST_SCALE_MIN` and `FIRST_SCALE_MAX`. */
 export const firstScale = (view: TimelineView, axis: Axis) =>
   Math.max(FIRST_SCALE_MIN, Math.min(FIRST_SCALE_MAX, wholeScale(view, axis)));
 
 /** Height of a row of layers, CSS pixels, as the style sheet has it. */
 export const layerHeight = () => (matchMedia('(pointer: coarse)').matches ? 44 : 32);
 
-/** Notes which part is seen. The drawn part changes only once in an eighth of a width, so that scrolling is cheap. */
+/**
+ * Sets `drawn` to the part in sight and some around it. It changes in steps of an eighth of the width, at least 80 px,
+ * and of four rows, so that scrolling is cheap.
+ */
 export function noteSeen(view: TimelineView) {
   const { scroller } = view;
   if (!scroller) return;
@@ -140,7 +143,7 @@ export function noteSeen(view: TimelineView) {
     view.drawn.set(next);
 }
 
-/** Zooms so that what is at `at_px` of the seen part of the lanes stays there. */
+/** Zooms by `factor` about `at_px`, CSS pixels from the left of the part in sight; by default about its middle. */
 export function zoomTimeline(view: TimelineView, factor: number, at_px = seenWidth(view) / 2) {
   const { scroller } = view;
   const before = view.scale.get();
@@ -153,7 +156,7 @@ export function zoomTimeline(view: TimelineView, factor: number, at_px = seenWid
   noteSeen(view);
 }
 
-/** Scrolls a stretch of the lanes into sight. */
+/** Scrolls a stretch of the lanes, CSS pixels, into sight; if it is too wide, its begin. */
 export function reveal(view: TimelineView, from_px: number, to_px: number) {
   const { scroller } = view;
   if (!scroller) return;
@@ -162,7 +165,7 @@ export function reveal(view: TimelineView, from_px: number, to_px: number) {
   else if (to_px > left + width) scroller.scrollLeft = Math.min(from_px - 16, to_px - width + 32);
 }
 
-/** Scrolls a row of layers into sight. */
+/** Scrolls a row of layers, the uppermost being 0, into sight. */
 export function revealRow({ scroller }: TimelineView, row: number) {
   const head = scroller?.querySelector('[data-head]')?.clientHeight ?? 0;
   if (!scroller) return;

@@ -22,12 +22,12 @@ interface Props {
   code: LiveTimeCode;
 }
 
-/** Presets that are put over the running show, and taken off by a second press. */
+/** Presets that a press puts over the running show and a second press takes off; fields for MIDI pads and time code. */
 export default function LightTab({ light, pads, code }: Props) {
   const { live } = useSession();
   const stage = useStore(live.opened, (o) => o.show?.stage ?? null);
   const plays = useStore(live.playback, (p) => isPlayed(p.phase));
-  // A text, not the list, which is another one twenty times a second.
+  // A text, not the list, which may be another object with each message.
   const names = useStore(live.playback, (p) => JSON.stringify(p.live_light));
   const on = useMemo(() => JSON.parse(names) as string[], [names]);
   const learning = useStore(pads.learning);

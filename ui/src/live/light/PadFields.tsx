@@ -17,7 +17,7 @@ const STATES: Record<Exclude<PadsState, 'on'>, string> = {
 const TITLES = [...LIGHT_PRESETS, ...PAD_ACTS].map(({ title }) => title);
 const CHOICES = TITLES.map((label, index) => ({ value: String(index), label }));
 
-/** MIDI pads: which devices are there, and which pad presses which light. */
+/** MIDI pads: a button that asks for them, then which devices are there, and a field that gives a light a pad. */
 export function PadFields({ pads }: { pads: MidiPads }) {
   const state = useStore(pads.state);
   const devices = useStore(pads.devices);

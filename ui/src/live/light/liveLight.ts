@@ -4,15 +4,15 @@ import { LIGHT_PRESETS, presetLayer } from '../../model/lightPresets';
 import type { Session } from '../../session/session';
 import { isPlayed } from '../cueRows';
 
-/** Keys of the presets, in their order; the floor has 0 and W. */
+/** Keys of the presets, in their order. 0 and W are left out, because the floor uses them. */
 export const LIGHT_KEYS: readonly string[] = [...'123456789', 'q', 'e', 'd'];
 
-/** What counts until the server says which lights are on, milliseconds. */
+/** How long what was asked for last counts as the state of a light, milliseconds; then what the server says counts. */
 const ASKED_FOR_MS = 1_000;
 
 /** Presets over the running show, switched on and off. */
 export interface LiveLight {
-  /** Puts a preset over the show, or takes it off. Without a running show nothing happens. */
+  /** Puts the preset at `index` over the show, or takes it off. Without a running show nothing happens. */
   press(index: number): void;
   release(title: string): void;
 }
@@ -23,7 +23,7 @@ type Needs = {
 };
 
 export function createLiveLight({ live, ask }: Needs, now_ms = () => performance.now()): LiveLight {
-  /** A second press may come before the server has answered the first. */
+  /** What was asked for last, by title: a second press may come before the server has answered the first. */
   const asked = new Map<string, { on: boolean; at_ms: number }>();
   const isOn = (title: string) => {
     const last = asked.get(title);

@@ -1,7 +1,7 @@
 import { createStore, type Readable } from '../../base/store';
 import { LIGHT_PRESETS } from '../../model/lightPresets';
 
-/** Where the pads are: not asked for, asked for, there, refused by the person or impossible in this browser. */
+/** State of MIDI: not asked for, asked for, usable, refused by the user or the browser, or missing in this browser. */
 export type PadsState = 'off' | 'asking' | 'on' | 'refused' | 'missing';
 
 /** The parts of Web MIDI that are used, so that tests can replace it. */
@@ -14,29 +14,30 @@ export interface PadAccess {
   onstatechange: (() => void) | null;
 }
 
-/** Pads of MIDI devices that press presets. */
+/** Pads of MIDI devices that press lights (presets) and do other acts. */
 export interface MidiPads {
   state: Readable<PadsState>;
   /** Names of the devices. */
   devices: Readable<readonly string[]>;
-  /** The preset that gets the next pad that is hit; null: pads press. */
+  /** Number of the light or act that gets the next pad that is hit; null: pads press. */
   learning: Readable<number | null>;
-  /** Asks the browser for MIDI devices. */
+  /** Asks the browser for MIDI devices, unless they are there or asked for; the user may have to agree. */
   start(): Promise<void>;
   learn(index: number | null): void;
 }
 
 /** Pads of most devices begin at this note and count upwards. */
 const FIRST_NOTE = 36;
+/** Status of the MIDI message of a pad that is hit, without its channel. */
 const NOTE_ON = 0x90;
 const KEPT = 'lightbots-pads';
 
-/** Presets by note. */
+/** Numbers of lights or acts by MIDI note. */
 type Notes = Map<number, number>;
 
 /**
- * `press` gets the number of a light, or of one of `others.presses` acts after the lights, which have no pad until one is
- * learned. `others.hear` gets every message.
+ * `press` gets the number of a light, counted from 0. The `others.presses` acts have the numbers after the lights, and
+ * no pad until one is learned. `others.hear` gets every message. `request`: null without MIDI.
  */
 export function createMidiPads(
   request: (() => Promise<PadAccess>) | null,
@@ -47,7 +48,7 @@ export function createMidiPads(
   const state = createStore<PadsState>(request ? 'off' : 'missing');
   const devices = createStore<readonly string[]>([]);
   const learning = createStore<number | null>(null);
-  /** Presets of notes that were learned. */
+  /** The notes that were learned; they count before the usual ones. */
   const learned = readNotes(storage);
 
   const hit = (note: number) => {
@@ -59,7 +60,7 @@ export function createMidiPads(
       if (meant !== null && meant < LIGHT_PRESETS.length + others.presses) press(meant);
       return;
     }
-    // A preset has one pad.
+    // A light or act has at most one learned pad.
     for (const [other, preset] of learned) if (preset === index) learned.delete(other);
     learned.set(note, index);
     learning.set(null);

@@ -8,7 +8,7 @@ import { useTimeCode, type LiveTimeCode } from '../midi/useTimeCode';
 import { createMidiPads, type MidiPads, type PadAccess } from './midiPads';
 import { PAD_ACTS } from './padActs';
 
-/** Live light of this page by button, key and pad, and what else MIDI devices do. */
+/** Live light of this page by button, key and MIDI pad, and time code of MIDI devices. */
 export function useLiveLight(): { light: LiveLight; pads: MidiPads; code: LiveTimeCode } {
   const session = useSession();
   const isRefused = useWhyNot('operator', 'change light') !== null;
@@ -43,7 +43,7 @@ function midiOfBrowser(): (() => Promise<PadAccess>) | null {
     : null;
 }
 
-/** Starts without a question where the person allowed MIDI before. */
+/** Starts MIDI if the browser says that the user allowed it before, so that no question appears. */
 async function startIfAllowed(pads: MidiPads) {
   try {
     const { state } = await navigator.permissions.query({ name: 'midi' as PermissionName });

@@ -11,7 +11,7 @@ const WHY_NOT: Partial<Record<PadsState, string>> = {
   asking: 'Answer the question of the browser about MIDI devices.',
 };
 
-/** Time code: whether it plays the show, and when. */
+/** MIDI time code: whether it plays the show, from which time on, and the code now; nothing without MIDI. */
 export function TimeCodeFields({ code, midi }: { code: LiveTimeCode; midi: PadsState }) {
   const isOn = useStore(code.isOn);
   const now = useStore(code.code_s, (time_s) => (time_s === null ? null : codeText(time_s)));

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { codeText, createTimeCode, readClock } from './timeCode';
 
-/** The eight messages of a time. */
+/** The eight quarter-frame messages of a time; `rate`: index of the frame rate, 0 to 3. */
 function quarters(hours: number, minutes: number, seconds: number, frames: number, rate: number) {
   const fields = [frames, seconds, minutes, hours + 32 * rate];
   return fields.flatMap((value, i) => [

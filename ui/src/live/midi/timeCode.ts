@@ -1,19 +1,20 @@
-/** MIDI time code as quarter frames tell it. */
+/** The time of MIDI time code that runs forwards, from its quarter-frame messages. */
 export interface TimeCode {
-  /** Takes a message of a MIDI device. */
+  /** Takes any message of a MIDI device, `now_ms` of this screen's clock. */
   hear(data: Uint8Array, now_ms: number): void;
-  /** The time now, seconds since midnight of the code; null: no code runs. */
+  /** The time now, seconds since midnight of the code; null: no code runs, or no full time has come yet. */
   now_s(now_ms: number): number | null;
 }
 
+/** Status byte of a quarter-frame message. */
 const QUARTER_FRAME = 0xf1;
 /** A time is spread over this number of messages. */
 const PIECES = 8;
-/** Frames a second by the two bits that tell them. */
+/** Frames of the code per second, by the two bits that say which. */
 const RATES = [24, 25, 29.97, 30] as const;
-/** Drop-frame code counts 30 frames a second and leaves out two numbers a minute, but not each tenth minute. */
+/** Frame numbers that drop-frame code leaves out each minute, except each tenth, while it counts 30 a second. */
 const DROP = 2;
-/** Code of which nothing was heard for longer stands, milliseconds: quarter frames come every 8 to 10. */
+/** After this time without a message, milliseconds, no code runs: quarter frames come every 8 to 10 ms. */
 const SILENT_MS = 250;
 
 export function createTimeCode(): TimeCode {
@@ -25,7 +26,7 @@ export function createTimeCode(): TimeCode {
       const [status, value = 0] = data;
       if (status !== QUARTER_FRAME) return;
       const piece = (value >> 4) & 7;
-      // Pieces of code that runs backwards, or of which one was lost, tell no time.
+      // A piece out of order begins anew: one was lost, or the code runs backwards, which is not read.
       if (piece !== nibbles.length) nibbles = [];
       if (piece === nibbles.length) nibbles.push(value & 15);
       heard_ms = now_ms;
@@ -40,7 +41,7 @@ export function createTimeCode(): TimeCode {
   };
 }
 
-/** The time at the last of eight pieces: it says the moment of the first, seven quarters of a frame before. */
+/** Seconds at the last of eight pieces. They name the frame of the first piece, seven quarters of a frame earlier. */
 function secondsOf(nibbles: readonly number[]): number {
   const at = (piece: number) => nibbles[piece] ?? 0;
   const [frames, seconds] = [at(0) + 16 * (at(1) & 1), at(2) + 16 * (at(3) & 3)];
@@ -54,7 +55,7 @@ function secondsOf(nibbles: readonly number[]): number {
   return (30 * whole + now - DROP * (all - Math.floor(all / 10))) / rate;
 }
 
-/** A time as `01:02:03.5`; null where a text is none. */
+/** Reads a time such as `01:02:03.5` into seconds since midnight; null: the text is no time of a day. */
 export function readClock(text: string): number | null {
   const parts = /^(\d{1,2}):(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)$/.exec(text.trim());
   if (!parts) return null;
@@ -63,7 +64,7 @@ export function readClock(text: string): number | null {
   return hours < 24 && minutes < 60 && seconds < 60 ? 3600 * hours + 60 * minutes + seconds : null;
 }
 
-/** Seconds as `01:02:03.5`. */
+/** Seconds since midnight as `01:02:03.5`, rounded down to a tenth. */
 export function codeText(time_s: number): string {
   const tenths = Math.floor(time_s * 10 + 1e-6);
   const [hours, minutes] = [Math.floor(tenths / 36_000), Math.floor(tenths / 600) % 60];

@@ -1,11 +1,11 @@
-/** Where the show is when it is compared with time code. */
+/** The state of the show when it is compared with time code. */
 export interface FollowedShow {
   /** Whether a show can be played now. */
   isReady: boolean;
   isPlaying: boolean;
-  /** Whether it waits for GO. */
+  /** Whether the show waits for GO. */
   waits: boolean;
-  /** Seconds from the start of the first frame's air time; null: it stands, or robots are on their way there. */
+  /** Seconds from the start of the first frame's air time, negative before it; null: the show stands. */
   show_s: number | null;
 }
 
@@ -13,26 +13,29 @@ export interface FollowedShow {
 export interface FollowerActs {
   play(): void;
   pause(): void;
-  /** A line for people. */
+  /** Tells people something. */
   say(message: string): void;
 }
 
-/** Lets time code start a show, and pauses the show when the code leaves it. */
+/** Lets time code start a show, and pauses the show when the code stops, or jumps away from it. */
 export interface TimeCodeFollower {
-  /** Compares; `code_s` as `TimeCode.now_s`, `start_s` the time at which the show is played. */
+  /**
+   * Call this often. `code_s`: the time code now, seconds, null: none runs; `start_s`: its time at which the show is
+   * played; `now_ms`: this screen's clock.
+   */
   step(code_s: number | null, start_s: number, show: FollowedShow, now_ms: number): void;
 }
 
-/** Robots never chase a jump of the code: a show that is farther from it is paused, seconds. */
+/** Seconds by which code and show may drift apart; beyond that the show is paused: robots do not chase the code. */
 export const APART_MAX_S = 0.5;
-/** Code that has passed the start by more did not come to it: it began later, seconds. */
+/** The code starts the show only if it has passed the start by less than this, seconds; else it has jumped past it. */
 const START_WINDOW_S = 0.5;
-/** Code that is silent for longer was stopped, milliseconds. */
+/** Code that is silent for longer than this was stopped, milliseconds. */
 const STOPPED_MS = 500;
 
 export function createTimeCodeFollower(acts: FollowerActs): TimeCodeFollower {
   let before_s: number | null = null;
-  /** The code less the show, when they were compared first since the show goes on. */
+  /** Code minus show time, seconds, at their first comparison since the show began or went on; null: none yet. */
   let base_s: number | null = null;
   let heard_ms = -Infinity;
   const leave = (message: string) => {
@@ -51,7 +54,7 @@ export function createTimeCodeFollower(acts: FollowerActs): TimeCodeFollower {
       before_s = code_s;
       if (code_s !== null) heard_ms = now_ms;
       if (passes && show.isReady) acts.play();
-      // Where the code is to the show counts anew after a pause and after GO.
+      // After a pause and after GO, the offset of the code to the show is measured anew.
       if (!show.isPlaying || show.waits) base_s = null;
       if (!show.isPlaying || show.show_s === null || show.show_s < 0) return;
       if (code_s === null) {

@@ -6,10 +6,10 @@ import { useSession, type Session } from '../../session/session';
 import { createTimeCode, readClock } from './timeCode';
 import { createTimeCodeFollower } from './timeCodeFollower';
 
-/** How often code and show are compared, milliseconds. */
+/** Period at which code and show are compared, milliseconds. */
 const STEP_MS = 50;
 
-/** When the code plays the show, as `01:00:00`; kept on this screen. */
+/** Time of the code at which the show is played, such as `01:00:00`; kept on this screen. */
 export const startClock = createChoice<string>(
   'lightbots-time-code',
   '01:00:00',
@@ -18,15 +18,15 @@ export const startClock = createChoice<string>(
 
 /** Time code that this screen hears. */
 export interface LiveTimeCode {
-  /** Whether it starts and pauses shows. */
+  /** Whether the code starts and pauses shows. */
   isOn: Store<boolean>;
-  /** The code now, seconds; null: none runs. */
+  /** The code now, seconds since its midnight; null: no code runs. */
   code_s: Store<number | null>;
   /** Takes a message of a MIDI device. */
   hear: (data: Uint8Array) => void;
 }
 
-/** Follows time code on this page. `mayPlay`: whether the person may play shows. */
+/** Follows time code on this page; only if it is switched on and the person `mayPlay`, it starts and pauses shows. */
 export function useTimeCode(mayPlay: boolean): LiveTimeCode {
   const session = useSession();
   const code = useMemo(() => createTimeCode(), []);
