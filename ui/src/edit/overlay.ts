@@ -2,7 +2,7 @@ import type { EditorState } from '../model/editorState';
 import { type Point, boxOf } from '../base/geometry';
 import { canvasFromStage, type Camera } from '../stage/camera';
 import { marksOf, type Marks } from '../model/marks';
-import type { Frame } from '../model/show';
+import type { Frame, Stage } from '../model/show';
 import { createSprites } from '../stage/sprites';
 import type { Handle } from '../model/transformTool';
 import { paintPins } from '../stage/pinMark';
@@ -52,15 +52,18 @@ export const handleAt = (state: EditorState, camera: Camera, at: Point, reach_px
     (h) => Math.hypot(h.at.x - at.x, h.at.y - at.y) < Math.max(HANDLE_REACH_PX, reach_px),
   )?.handle ?? null;
 
-let markedFor: Frame | null = null;
-let marks: Marks = { tooClose: new Set(), offFloor: new Set() };
+const NO_MARKS: Marks = { tooClose: new Set(), offFloor: new Set() };
+let markedFor: { frame: Frame; stage: Stage } | null = null;
+let marks = NO_MARKS;
 
-/** Marks of the frame on the stage, worked out again only when the frame is another object. */
+/** Marks of the frame on the stage, worked out again only when the frame or the floor is another object. */
 export function marksNow(state: EditorState): Marks {
   const frame = state.show.frames[state.frame];
-  if (frame && frame !== markedFor) {
-    markedFor = frame;
-    marks = marksOf(frame.pixels, state.show.stage);
+  const { stage } = state.show;
+  if (!frame) return NO_MARKS;
+  if (frame !== markedFor?.frame || stage !== markedFor.stage) {
+    markedFor = { frame, stage };
+    marks = marksOf(frame.pixels, stage);
   }
   return marks;
 }

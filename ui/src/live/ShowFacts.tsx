@@ -64,7 +64,7 @@ function PlanFacts({ plan }: { plan: Plan }) {
       <dt>Stop-safe</dt>
       <dd>{stopSafeText(plan)}</dd>
       <dt>Plan</dt>
-      <dd>{plan.ok ? 'proven: nobody touches' : 'cannot be played as it is'}</dd>
+      <dd>{plan.ok ? 'proven: no two robots touch' : 'cannot be played as it is'}</dd>
     </>
   );
 }

@@ -15,7 +15,7 @@ export function paintCallouts(
 ) {
   if (callouts.length === 0) return;
   const ring_px = Math.max(4, radius_m * camera.scale) + 8;
-  const width_px = c.canvas.width / (window.devicePixelRatio || 1);
+  const width_px = c.canvas.width / c.getTransform().a;
   c.save();
   c.font = FONT;
   c.textBaseline = 'middle';

@@ -9,7 +9,10 @@ export interface AudioOut extends SoundOut {
 /** Decodes a file of music and opens a sound device for it. Rejects if the browser cannot decode the file. */
 export async function createAudioOut(bytes: Uint8Array<ArrayBuffer>): Promise<AudioOut> {
   const context = new AudioContext({ latencyHint: 'interactive' });
-  const buffer = await context.decodeAudioData(bytes.slice().buffer);
+  const buffer = await context.decodeAudioData(bytes.slice().buffer).catch((error: unknown) => {
+    void context.close();
+    throw error;
+  });
   await context.resume();
   return {
     lasts_s: buffer.duration,

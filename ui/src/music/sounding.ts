@@ -13,21 +13,28 @@ export interface Sounding {
 
 export function createSounding(
   fileOf: (hash: string) => Promise<Uint8Array<ArrayBuffer>>,
+  audioOut: typeof createAudioOut = createAudioOut,
 ): Sounding {
   let opened: { hash: string; out: AudioOut; player: Player } | null = null;
   let opening: Promise<void> | null = null;
-  const close = () => {
+  let closings = 0;
+  const end = () => {
     opened?.player.stop();
     opened?.out.close();
     opened = null;
   };
   const load = async (hash: string) => {
+    const before = closings;
     const out = await fileOf(hash)
-      .then(createAudioOut)
+      .then(audioOut)
       .catch((error: unknown) => {
         throw new Error(`The music cannot be heard: ${messageOf(error)}`);
       });
-    close();
+    if (closings !== before) {
+      out.close();
+      return;
+    }
+    end();
     opened = { hash, out, player: createPlayer(out, out.lasts_s) };
   };
   return {
@@ -39,6 +46,9 @@ export function createSounding(
       await opening;
     },
     follow: (position_s, now_ms) => opened?.player.follow(position_s, now_ms),
-    close,
+    close() {
+      closings += 1;
+      end();
+    },
   };
 }

@@ -20,18 +20,26 @@ export type FilmState =
 export function useFilm(editing: Editing) {
   const [state, setState] = useState<FilmState>({ of: 'settings' });
   const current = useRef<Filming | null>(null);
-  const cancel = () => {
+  const cancels = useRef(0);
+  const end = () => {
+    cancels.current += 1;
     current.current?.cancel();
     current.current = null;
+  };
+  const cancel = () => {
+    end();
     setState({ of: 'settings' });
   };
-  useEffect(() => () => current.current?.cancel(), []);
+  useEffect(() => end, []);
   const make = async (plan: Plan, settings: FilmSettings, withMusic: boolean) => {
     const show = editing.editor.state.get().show;
     setState({ of: 'making', share: 0 });
+    const before = cancels.current;
+    const isCancelled = () => cancels.current !== before;
     try {
       const file = withMusic ? musicOf(show) : null;
       const music = file && (await decodeForFilm(await editing.fileOf(file.hash)));
+      if (isCancelled()) return;
       const filming = startFilm(
         startFilmWorker,
         { show, transitions: plan.transitions },
@@ -45,6 +53,7 @@ export function useFilm(editing: Editing) {
       download(new Blob([film], { type }), `${editing.name}.${settings.kind}`);
       setState({ of: 'made', bytes: film.length });
     } catch (error) {
+      if (isCancelled()) return;
       setState({ of: 'failed', message: messageOf(error) });
     }
     current.current = null;

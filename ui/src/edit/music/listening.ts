@@ -14,7 +14,9 @@ export interface Listening {
 export function createListening(sounding: Sounding): Listening {
   const at_s = createStore<number | null>(null);
   let request = 0;
+  let stops = 0;
   const stop = () => {
+    stops += 1;
     cancelAnimationFrame(request);
     sounding.follow(null, performance.now());
     at_s.set(null);
@@ -23,12 +25,14 @@ export function createListening(sounding: Sounding): Listening {
     at_s,
     async start(hash, from_s, lasts_s) {
       stop();
+      const before = stops;
       try {
         await sounding.open(hash);
       } catch (error) {
         notify('error', messageOf(error));
         return;
       }
+      if (stops !== before) return;
       const began_ms = performance.now();
       const step = (now_ms: number) => {
         const position_s = from_s + Math.max(0, now_ms - began_ms) / 1000;

@@ -72,7 +72,13 @@ export function followPointer(
     leave();
     drag.cancel();
   };
-  window.addEventListener('pointercancel', giveUp, options);
+  window.addEventListener(
+    'pointercancel',
+    (event) => {
+      if (event.pointerId === down.pointerId) giveUp();
+    },
+    options,
+  );
   window.addEventListener('blur', giveUp, options);
   window.addEventListener(
     'keydown',
