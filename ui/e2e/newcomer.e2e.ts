@@ -8,7 +8,7 @@ const CLICKS_MAX = 8;
 
 const bed = createTestBed('--robots', '30');
 
-test('somebody who never saw it makes a heart and a word with thirty robots, and plays them', async () => {
+test('a newcomer makes a heart and a word with thirty robots, and plays them', async () => {
   const page = await bed.open('live', { tour: true });
   let clicks = 0;
   const click = async (target: Locator) => {

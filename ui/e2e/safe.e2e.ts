@@ -21,7 +21,7 @@ test('server and page both die in the middle of an edit, and nothing is lost', a
   expect(document.frames[0]?.pixels.every((p) => p.color === '#b14cff')).toBe(true);
 });
 
-test('two browsers change one show at once: nobody overwrites the other silently', async () => {
+test('two browsers change one show at once: neither overwrites the other silently', async () => {
   const page = await bed.open('edit');
   await uploadText(page, 'shared.json', smallShow(6));
   const second = await bed.open('edit');

@@ -221,7 +221,7 @@ const conflict: View = {
     await pixelsAre(page, 12);
     await page.route('**/api/shows/*', (route) =>
       route.request().method() === 'PUT'
-        ? route.fulfill({ status: 412, json: { error: 'Somebody else was faster.' } })
+        ? route.fulfill({ status: 412, json: { error: 'Another person was faster.' } })
         : route.continue(),
     );
     await button(page, 'All').click();

@@ -95,7 +95,7 @@ pub const RULES: [Rule; 63] = {
         rule(40, "STOP: stands, deletes target and routes, reports", Route),
         rule(41, "reports on Status in time", Route),
         rule(42, "several reasons cause one report", Route),
-        rule(43, "stands after 2 s of silence on a route", Route),
+        rule(43, "stands within 2.2 s of silence on a route", Route),
         rule(44, "keeps a target in silence, but not without a link", Hidden(CUT)),
         rule(45, "accepts routes again after it was cut", Route),
         rule(46, "stands while its position is not known", Hidden(SENSORS)),

@@ -37,7 +37,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("lightbots-json-file-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let (path, aside) = (folder.join("a.json"), folder.join("a.json.unreadable"));
-        assert_eq!(load::<Vec<u8>>(&path, 9), []);
+        assert_eq!(load::<Vec<u8>>(&path, 9), Vec::<u8>::new());
         assert!(!aside.exists(), "a missing file is no error");
         for (text, most, expected) in [("[1,2]", 5, vec![1, 2]), ("[1,2]", 4, vec![]), ("[1,", 9, vec![])] {
             std::fs::write(&path, text).unwrap();

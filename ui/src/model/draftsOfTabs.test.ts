@@ -136,8 +136,8 @@ class World {
   /** All words that the server ever had, that a page shows, that a later page finds as left drafts, or thrown away. */
   safe(): Words {
     const writer = { tab: 'new', page: 'new', now_ms: () => Date.now() + 200_000 };
-    const nobody = { isGone: false } as Page;
-    const left = createDrafts(this.shelfOf(nobody), writer).left().flatMap(wordsOf);
+    const absent = { isGone: false } as Page;
+    const left = createDrafts(this.shelfOf(absent), writer).left().flatMap(wordsOf);
     const shown = [...this.pages.values()].flatMap((page) => [...page.words]);
     return new Set([...this.ever, ...left, ...shown, ...this.thrownAway]);
   }

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { marksOf } from './marks';
 import { EMPTY_STAGE, tooClose_m, type Pixel } from './show';
 
-test('whoever is too close is found, wherever the squares of the search lie', () => {
+test('pixels that are too close are found, wherever the squares of the search lie', () => {
   const chance = (n: number) => (Math.abs(Math.sin(n * 12.9898)) * 43758.5453) % 1;
   const pixels: Pixel[] = Array.from({ length: 300 }, (_, id) => ({
     id,

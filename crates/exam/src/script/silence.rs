@@ -57,7 +57,7 @@ fn record_cut(pilot: &Pilot, cut_after: Option<Span>, stands: bool) {
     );
     let came = format!("{cut}; {}", if stands { "it stands" } else { "it drives on" });
     let sent = "a route, then nothing for 3.5 s";
-    pilot.session.record(43, in_time && stands, sent, "state=cut after 2 s, and it stands", came);
+    pilot.session.record(43, in_time && stands, sent, "state=cut within 2.2 s, and it stands", came);
 }
 
 /// Records R45. `state`: the robot's state after the first message that follows the silence. `drives`: whether it then
