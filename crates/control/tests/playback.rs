@@ -217,9 +217,9 @@ fn robots_are_stopped_before_they_are_asked_anything_where_the_broker_was_gone()
         [(Some(Operation::StopAll), None), (None, Some(Operation::StopAll)), (None, Some(Operation::Abort))]
     {
         let mut world = World::under_way(6);
-        before.map(|operation| world.operate(operation).unwrap());
+        before.into_iter().for_each(|operation| world.operate(operation).unwrap());
         world.link(false);
-        meanwhile.map(|operation| world.operate(operation).unwrap());
+        meanwhile.into_iter().for_each(|operation| world.operate(operation).unwrap());
         world.run_for(0.5);
         world.link(true);
         assert_eq!(world.to_robots().first().map(String::as_str), Some("|STOP|"), "{:?}", world.to_robots());

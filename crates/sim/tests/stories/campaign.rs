@@ -11,8 +11,8 @@ const SLOW: [u64; 5] = [233, 703, 710, 1_091, 1_337];
 
 /// Seeds that once failed, with the number of robots then (`None`: as many as the seed draws). The comments name the
 /// mistake.
-const FAILED: [(u64, Option<usize>); 49] = [
-    // Robots turned towards a route that waited for its start after 2 s of silence.
+const FAILED: [(u64, Option<usize>); 51] = [
+    // Robots turned towards a route that waited for its start after 1.9 s of silence.
     (78, Some(30)),
     // A show that was paused when its controller was killed stayed paused.
     (71, Some(30)),
