@@ -98,8 +98,8 @@ impl Light {
         self.tracks.clear();
     }
 
-    /// Handles that the show clock was reset, so that moments received before are void (R30, R58 of docs/protocol.md). Waiting
-    /// fades and all stretches are cancelled. A running fade ends at once in its final colour.
+    /// Handles that the show clock was reset, so that moments received before are void (R30, R58 of docs/protocol.md).
+    /// Waiting fades and all stretches are cancelled. A running fade ends at once in its final colour.
     pub(crate) fn forget_moments(&mut self) {
         self.waiting.clear();
         self.tracks.forget_moments();
