@@ -57,8 +57,8 @@ pub struct Controller {
     /// The frame in which the last run of a show failed or was aborted, counted from 0. Kept until the operator
     /// dismisses the message, begins another run, or opens a show of another name.
     pub(crate) stopped_in: Option<usize>,
-    /// Whether all robots are to be stopped once the broker is connected. Either the broker was lost while robots were
-    /// being stopped, or the run of a journal does not go on.
+    /// Whether all robots are to be stopped once the broker is connected: the broker was lost while robots were being
+    /// stopped, the run ended without a broker, or the run of a journal does not go on.
     pub(crate) stops_when_connected: bool,
     /// What the last preflight found; `None` if there was none, or one is under way.
     #[serde(skip)]
@@ -108,7 +108,7 @@ impl Controller {
         self.context.log.record(now, EventKind::Connected);
         // STOP goes first: a robot that receives any other message turns towards the route that it keeps.
         if std::mem::take(&mut self.stops_when_connected) {
-            self.stopping = Some(Stopping::begin(&mut self.context, now, None));
+            self.stopping = Some(Stopping::begin_unplaced(&mut self.context, now, None));
         }
         self.refresh(now);
         self.conclude(now);
@@ -280,7 +280,7 @@ impl Controller {
         self.journal.end(now, &outcome.to_string());
         let (frames_played, dropouts) = (run.tally.frames_played, run.tally.dropouts);
         // A robot may have missed the last STOP, and keeps a route then.
-        let stops = matches!(outcome, RunOutcome::Failed(_)) && self.context.outbox.linked();
+        let stops = matches!(outcome, RunOutcome::Failed(_));
         if let Some(report) = tested {
             let (passed, robots) = (report.passed(), report.robots.len());
             self.context.log.record(now, EventKind::PreflightEnded { passed, robots });
@@ -288,7 +288,7 @@ impl Controller {
         }
         self.context.log.record(now, EventKind::RunEnded { outcome, frames_played, dropouts });
         if stops {
-            self.stopping = Some(Stopping::begin(&mut self.context, now, None));
+            self.halt(now, None);
         }
     }
 

@@ -41,6 +41,12 @@ mod claims {
 }
 
 impl Mapping {
+    /// Forgets which robots showed pixels, because pixels of another show are others. Pins stay.
+    pub fn forget_show(&mut self) {
+        self.owners.clear();
+        self.shown.clear();
+    }
+
     /// Removes all bindings of a robot.
     pub fn forget(&mut self, id: RobotId) {
         self.pins.retain(|_, robot| *robot != id);

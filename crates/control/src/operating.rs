@@ -5,7 +5,6 @@ use crate::controller::Controller;
 use crate::event::EventKind;
 use crate::frame_cursor::FrameCursor;
 use crate::home;
-use crate::mapping::Mapping;
 use crate::operation::{ControllerState, MissingPolicy, Operation, Refusal};
 use crate::preflight::{self, TestedRobot};
 use crate::robot::KnownRobot;
@@ -103,7 +102,7 @@ impl Controller {
         // A show with another name has other frames and pixels.
         if self.show.as_ref().is_some_and(|before| before.name != show.name) {
             self.stopped_in = None;
-            self.context.mapping = Mapping::default();
+            self.context.mapping.forget_show();
         }
         self.show = Some(show);
         Ok(())
@@ -357,7 +356,7 @@ impl Controller {
     }
 
     /// Tells all robots to stop: now, or when the broker is connected again.
-    fn halt(&mut self, now: Instant, held_from: Option<Instant>) {
+    pub(crate) fn halt(&mut self, now: Instant, held_from: Option<Instant>) {
         if self.context.outbox.linked() {
             self.stopping = Some(Stopping::begin(&mut self.context, now, held_from));
         } else {

@@ -38,7 +38,8 @@ pub enum Operation {
     /// End the run. Robots on routes come to rest together, then all wheels stop. A second Abort stops them at once.
     Abort,
     /// Stop every robot, also robots that take no part in the run, and end the run. Robots on routes first come to rest
-    /// together; a second StopAll stops them at once. Refused only without a broker.
+    /// together; a second StopAll stops them at once. Without a broker, robots are stopped once it is back; refused then if
+    /// there is no run.
     StopAll,
     /// Remove the message that the last run failed or was stopped, because the operator has read it.
     DismissFailure,

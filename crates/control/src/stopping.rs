@@ -63,18 +63,23 @@ impl Stopping {
     /// Begins to stop all robots. `held_from`: when robots on a drive are to begin to slow down, show clock. With
     /// `None`, STOP is sent at once.
     pub fn begin(context: &mut Context, now: Instant, held_from: Option<Instant>) -> Self {
-        context.outbox.stop_repeating();
-        let stop_at = held_from.map(|at| at + Route::EASE);
-        let mut stopping =
-            Self { stop_at, since: now, check_at: stop_at.unwrap_or(now + CHECK), halted: BTreeMap::new() };
-        match held_from {
-            Some(at) => context.outbox.broadcast(now, Command::StopFrom { at }, COPIES.0, COPIES.1),
-            None => send_stop(context, now),
-        }
+        let mut stopping = Self::begin_unplaced(context, now, held_from);
         for index in 0..context.fleet.robots().len() {
             stopping.halt(context, index);
         }
         stopping
+    }
+
+    /// Like [`begin`](Self::begin), after an outage of the link: a TARGET-only robot has driven on since it last reported
+    /// its place. It is halted when it reports again.
+    pub fn begin_unplaced(context: &mut Context, now: Instant, held_from: Option<Instant>) -> Self {
+        context.outbox.stop_repeating();
+        let stop_at = held_from.map(|at| at + Route::EASE);
+        match held_from {
+            Some(at) => context.outbox.broadcast(now, Command::StopFrom { at }, COPIES.0, COPIES.1),
+            None => send_stop(context, now),
+        }
+        Self { stop_at, since: now, check_at: stop_at.unwrap_or(now + CHECK), halted: BTreeMap::new() }
     }
 
     /// Handles a report of the robot at `index` in the fleet. A TARGET-only robot that has moved on gets its present

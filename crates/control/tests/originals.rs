@@ -201,3 +201,23 @@ fn a_picture_stays_as_long_as_it_should_though_all_robots_are_asked_anew_meanwhi
     assert_eq!(world.run_to_end(100.0), (RunOutcome::Finished, 2, 0), "{}", world.story());
     assert!(world.closest_m >= CONTACT_M, "{}", world.closest_m);
 }
+
+#[test]
+fn after_an_outage_an_original_is_stopped_where_it_reports_that_it_is() {
+    let mut world = World::ready(1, 1, show(2, 1, 0.5));
+    world.play();
+    world.run_until(60.0, |kind| matches!(kind, EventKind::TransitionStarted { .. }));
+    world.run_for(0.3);
+    world.link(false);
+    world.operate(Operation::Abort).unwrap();
+    let left = world.robots[0].at;
+    world.run_for(0.5);
+    let driven_m = world.robots[0].at.distance(left);
+    world.link(true);
+    assert!(driven_m > 0.05 && !world.to_robots().iter().any(|message| message.contains("TARGET")));
+    world.run_for(3.0);
+    let at = world.robots[0].at;
+    assert!(at.distance(left) > driven_m - 0.01, "it went back");
+    world.run_for(1.0);
+    assert_eq!(world.robots[0].at, at, "it drives");
+}

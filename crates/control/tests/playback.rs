@@ -344,9 +344,25 @@ fn a_pin_binds_a_pixel_to_a_robot() {
     world.operate(Operation::Pin { pixel: 1, robot: away }).unwrap();
     let refused = world.operate(Operation::Play { from: 0, missing: MissingPolicy::Refuse });
     assert_eq!(refused, Err(Refusal::PinnedMissing { pixels: vec![1] }));
-    // Pixels of another show have no pins.
-    world.operate(Operation::Open(Arc::new(Show { name: "other".into(), ..show }))).unwrap();
+}
+
+#[test]
+fn pixels_of_another_show_do_not_keep_the_robots_of_the_former_one() {
+    let mut show = Show { identity: Identity::Fixed, ..show(2, 5, 0.1) };
+    for frame in &mut show.frames {
+        frame.pixels.iter_mut().zip(0..).for_each(|(pixel, id)| pixel.id = id);
+    }
+    let mut world = World::ready(5, 0, show.clone());
     world.play();
+    assert_eq!(world.run_to_end(40.0).0, RunOutcome::Finished);
+    let stood: Vec<Vec2> = world.robots.iter().map(|robot| robot.at).collect();
+    let mut other = Show { name: "other".into(), frames: show.frames[1..].to_vec(), ..show };
+    other.frames[0].pixels.reverse();
+    other.frames[0].pixels.iter_mut().zip(0..).for_each(|(pixel, id)| pixel.id = id);
+    world.operate(Operation::Open(Arc::new(other))).unwrap();
+    world.play();
+    assert_eq!(world.run_to_end(40.0).0, RunOutcome::Finished);
+    assert!(world.robots.iter().zip(stood).all(|(robot, stood)| robot.at.distance(stood) < 1e-3));
 }
 
 #[test]

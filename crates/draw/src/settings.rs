@@ -102,3 +102,19 @@ impl PlaceSettings {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_that_are_no_lengths_are_refused() {
+        assert_eq!(PlaceSettings::default().check(), Ok(()));
+        for least_m in [f64::NAN, -1.0, 9.0] {
+            assert_eq!(
+                PlaceSettings { least_m, ..PlaceSettings::default() }.check().unwrap_err().code,
+                "bad-setting"
+            );
+        }
+    }
+}

@@ -25,7 +25,7 @@ const SPACING_M: f64 = 0.0764;
 pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> {
     let floor = picture_floor(&show.stage);
     let mut notes = Vec::new();
-    let mut all = Vec::new();
+    let mut fitted_frames = Vec::new();
     let mut film = Film::None;
     for index in 0..show.frames.len() {
         let frame = &show.frames[index];
@@ -55,9 +55,9 @@ pub fn fit_show(show: &mut Show, robots: usize) -> Result<Vec<Note>, DrawError> 
             }
             None => kept()?,
         };
-        all.push((index, fitted));
+        fitted_frames.push((index, fitted));
     }
-    for (index, fitted) in all {
+    for (index, fitted) in fitted_frames {
         show.frames[index] = fitted;
     }
     if let Some(starts) = show.starts.take_if(|starts| starts.len() != robots) {
@@ -188,10 +188,17 @@ mod tests {
 
     #[test]
     fn too_many_robots_name_the_frame() {
-        let mut changed = show();
-        let error = fit_show(&mut changed, 9_000).unwrap_err();
-        assert_eq!(changed, show(), "nothing is half done");
+        let error = fit_show(&mut show(), 9_000).unwrap_err();
         assert_eq!(error.code, "too-many-robots");
         assert!(error.message.contains("Word"), "{}", error.message);
+    }
+
+    #[test]
+    fn a_show_that_cannot_be_fitted_stays_as_it_is() {
+        let mut whole = show();
+        whole.frames.push(Frame::default());
+        let mut changed = whole.clone();
+        fit_show(&mut changed, 60).unwrap_err();
+        assert_eq!(changed, whole);
     }
 }

@@ -139,8 +139,8 @@ impl Filter {
         self.apply(off);
     }
 
-    /// Corrects pose and slip by the innovations of place (metres) and heading (radians). Does nothing if all fixes
-    /// since the last propagation were outliers or jumps.
+    /// Corrects pose and slip by the innovations of place (metres) and heading (radians) times the Kalman gains. Also
+    /// updates the noise estimates. Does nothing if all fixes since the last propagation were outliers or jumps.
     fn apply(&mut self, off: (Vec2, f64)) {
         let [places, headings] = self.fixes;
         if places + headings == 0 {

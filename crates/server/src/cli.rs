@@ -285,7 +285,7 @@ pub struct RobotsArguments {
     /// Seed of the robots' noise and names [default: another one each time]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = seed)]
     pub seed: Option<u64>,
-    /// Width and depth of the floor in metres; with `--start rows`, the robots stand in its front rows
+    /// Width and depth of the floor in metres; with `--start rows`, the robots stand in rows at its back edge
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = floor, default_value = "3x3")]
     pub floor: (f64, f64),
     /// Where the robots stand at first: `rows` along the back edge, a SHOW's first frame, or one place X,Y in metres for

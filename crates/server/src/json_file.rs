@@ -8,7 +8,8 @@ use serde::de::DeserializeOwned;
 use crate::disk;
 
 /// Reads a file of at most `most` bytes. The result is the default value if the file is missing, cannot be read or is
-/// invalid. In the last two cases the file is renamed first, so that no later save replaces it.
+/// invalid. In the last two cases the file is renamed first, if that is possible, so that no later save replaces it. An
+/// earlier file that was renamed so is replaced.
 pub fn load<T: DeserializeOwned + Default>(path: &Path, most: u64) -> T {
     let read =
         disk::read_regular(path, most).and_then(|bytes| serde_json::from_slice(&bytes).map_err(Error::from));

@@ -18,7 +18,7 @@ use crate::web::Desk;
 const FILE: &str = "played.json";
 /// Most shows that are kept. If there are more, the one that was entered first is forgotten. An entry has about 100 bytes.
 const SHOWS_MAX: usize = 1_000;
-/// Longest file that is read, bytes. A longer one counts as missing.
+/// Longest file that is read, bytes. A longer one cannot be used; see [`json_file::load`].
 const FILE_MAX: u64 = 1 << 20;
 
 /// The shows that were played to their end. Clones share them.

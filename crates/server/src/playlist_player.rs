@@ -23,6 +23,9 @@ const LOOKS_WITHOUT_RUN: u32 = 3;
 /// Most turns that are skipped in one check. Each pass of the check skips one entry whose time is past.
 const ACTS_MAX: usize = 200;
 
+/// Why a turn waits whose show is not planned.
+const NOT_PLANNED: &str = "its plan is not made yet: give the planner more time";
+
 /// A turn that is about to begin.
 #[derive(Debug)]
 struct Attempt {
@@ -227,11 +230,11 @@ impl Player {
             if let Some(attempt) = &mut self.attempt {
                 attempt.revision = Some(self.shared.desk.shown().revision);
             }
-            return Err(Refused::ForNow("its plan is not made yet: give the planner more time".into()));
+            return Err(Refused::ForNow(NOT_PLANNED.into()));
         }
         let plan = self.shared.desk.plan();
         if plan.planning || plan.revision != shown.revision {
-            return Ok(());
+            return Err(Refused::ForNow(NOT_PLANNED.into()));
         }
         if let Some(issue) = plan.issues.iter().find(|issue| issue.severity == Severity::Error) {
             return Err(Refused::ForGood(format!("this show cannot be played: {}", issue.message)));

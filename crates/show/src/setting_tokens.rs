@@ -132,4 +132,11 @@ mod tests {
         assert!(read(deep(8)).is_some());
         assert_eq!(read(deep(100_000)), None);
     }
+
+    #[test]
+    fn a_number_that_is_none_is_refused() {
+        let tokens = [f64::NAN, f64::INFINITY]
+            .map(|number| vec![Token::Object(1), Token::Text("a".into()), Token::Number(number)]);
+        assert_eq!(tokens.map(read), [None, None]);
+    }
 }

@@ -14,15 +14,26 @@ const TRY_AGAIN: Span = Span::from_millis(10_000);
 pub(crate) struct Disk {
     /// Bytes that are on the disk.
     file: Vec<u8>,
-    /// Pieces that are being written, in order, each with the time at which it will be on the disk.
-    pending: VecDeque<(Instant, JournalPiece)>,
-    /// Pieces that are written before this time are lost, except those that end a run.
+    /// What is being written, in order, each with the time at which it will be on the disk.
+    pending: VecDeque<(Instant, Change)>,
+    /// Changes that begin before this time fail, except that a file is removed or marked.
     full_until: Instant,
-    /// Pieces that are written before this time reach the disk late, after `takes`.
+    /// Changes that begin before this time reach the disk late, after `takes`.
     slow_until: Instant,
     takes: Span,
-    /// When writing failed; `None`: it did not, or the journal was begun again since.
+    /// Whether pieces are appended to the file. Otherwise no journal has begun, or writing it failed: such pieces are lost.
+    is_open: bool,
+    /// When writing failed last; `None`: it did not, or the journal was begun again since.
     failed: Option<Instant>,
+}
+
+/// A change of the file.
+#[derive(Clone, Debug)]
+enum Change {
+    /// The piece is appended, replaces the file, or removes it.
+    Write(JournalPiece),
+    /// The file says from now on that it lacks entries.
+    MarkOutdated,
 }
 
 impl Disk {
@@ -43,33 +54,44 @@ impl Disk {
         self.failed.take_if(|failed| now - *failed > TRY_AGAIN).is_some()
     }
 
-    /// Begins to write a piece. If the disk is full or has failed, the piece is lost. The disk then counts as failed,
-    /// and a mark in the file tells that the journal is outdated. A piece that ends a run is not lost: it removes the
-    /// file, which needs no room.
+    /// Begins to write a piece. If the disk is full, the piece is lost, and the file is marked as outdated. A piece that
+    /// ends a run removes the file, which needs no room.
     pub fn write(&mut self, now: Instant, piece: JournalPiece) {
-        if !piece.ends && (self.failed.is_some() || now < self.full_until) {
-            self.failed.get_or_insert(now);
-            if let Some(mark) = self.file.get_mut(JOURNAL_OUTDATED.0) {
-                *mark = JOURNAL_OUTDATED.1;
-            }
-            return;
+        let is_written = piece.begins || piece.ends || self.is_open;
+        if !piece.ends && is_written && now < self.full_until {
+            (self.is_open, self.failed) = (false, Some(now));
+            self.begin(now, Change::MarkOutdated);
+        } else if is_written {
+            self.is_open = !piece.ends;
+            self.begin(now, Change::Write(piece));
         }
+    }
+
+    fn begin(&mut self, now: Instant, change: Change) {
         let takes = if now < self.slow_until { self.takes } else { Span::ZERO };
         let last = self.pending.back().map_or(now, |(at, _)| *at);
-        self.pending.push_back(((now + takes).max(last), piece));
+        self.pending.push_back(((now + takes).max(last), change));
         self.settle(now);
     }
 
-    /// Moves the pieces that are on the disk by now from `pending` into the file.
+    /// Makes the changes that are on the disk by now.
     fn settle(&mut self, now: Instant) {
         while self.pending.front().is_some_and(|(at, _)| *at <= now)
-            && let Some((_, piece)) = self.pending.pop_front()
+            && let Some((_, change)) = self.pending.pop_front()
         {
-            if piece.begins || piece.ends {
-                self.file.clear();
-            }
-            if !piece.ends {
-                self.file.extend(piece.bytes);
+            match change {
+                Change::Write(piece) if piece.ends => self.file.clear(),
+                Change::Write(piece) => {
+                    if piece.begins {
+                        self.file.clear();
+                    }
+                    self.file.extend(piece.bytes);
+                }
+                Change::MarkOutdated => {
+                    if let Some(mark) = self.file.get_mut(JOURNAL_OUTDATED.0) {
+                        *mark = JOURNAL_OUTDATED.1;
+                    }
+                }
             }
         }
     }
@@ -79,11 +101,14 @@ impl Disk {
     /// forgotten.
     pub fn crash(&mut self, now: Instant) {
         self.settle(now);
-        if let Some((_, torn)) = self.pending.front().filter(|(_, piece)| !piece.begins && !piece.ends) {
+        if let Some((_, Change::Write(torn))) = self.pending.front()
+            && !torn.begins
+            && !torn.ends
+        {
             self.file.extend(&torn.bytes[..torn.bytes.len() / 2]);
         }
         self.pending.clear();
-        self.failed = None;
+        (self.is_open, self.failed) = (false, None);
     }
 
     /// The bytes of the file at the last write or crash.
@@ -139,5 +164,16 @@ mod tests {
         assert_eq!(disk.file()[JOURNAL_OUTDATED.0], JOURNAL_OUTDATED.1);
         disk.write(Instant(2), END);
         assert!(disk.file().is_empty());
+    }
+
+    #[test]
+    fn a_journal_that_is_still_being_written_is_marked_after_that() {
+        let mut disk = Disk::default();
+        disk.slow(Instant(10), Span(5));
+        disk.write(Instant(0), piece(true, &[0; 12]));
+        disk.fill(Instant(20));
+        disk.write(Instant(1), piece(false, b"c"));
+        disk.crash(Instant(9));
+        assert_eq!(disk.file()[JOURNAL_OUTDATED.0], JOURNAL_OUTDATED.1);
     }
 }

@@ -23,8 +23,7 @@ export function createSounding(
     opened?.out.close();
     opened = null;
   };
-  const load = async (hash: string) => {
-    const before = closings;
+  const load = async (hash: string, before: number) => {
     const out = await fileOf(hash)
       .then(audioOut)
       .catch((error: unknown) => {
@@ -40,9 +39,10 @@ export function createSounding(
   return {
     async open(hash) {
       if (opened?.hash === hash) return;
+      const before = closings;
       await opening?.catch(() => undefined);
-      if (opened?.hash === hash) return;
-      opening = load(hash);
+      if (opened?.hash === hash || closings !== before) return;
+      opening = load(hash, before);
       await opening;
     },
     follow: (position_s, now_ms) => opened?.player.follow(position_s, now_ms),

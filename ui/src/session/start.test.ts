@@ -9,7 +9,10 @@ import { stubAddress } from './address.testing';
 import { copyText, followCopy } from './copies';
 import { followPlan, whenPlanned } from './start';
 import { createLive, receive } from './live';
+import { notify } from './notices';
 import { planOf } from './plan.testing';
+
+vi.mock('./notices', () => ({ notify: vi.fn() }));
 
 function setup() {
   const live = createLive();
@@ -84,12 +87,13 @@ test('what was edited a moment ago is saved and planned before it is played', as
   expect(act).toHaveBeenCalledTimes(1);
 });
 
-test.each<[string, (world: ReturnType<typeof setup>) => void]>([
-  ['another show is opened', ({ open }) => open(2, 'B')],
-  ['the link breaks', ({ live }) => live.link.set('lost')],
-  ['the page is left', ({ stop }) => stop()],
-  ['it is given up', ({ waiting }) => waiting.set(null)],
-])('nothing plays by itself after %s', (_, happen) => {
+test.each<[string, (world: ReturnType<typeof setup>) => void, string[]]>([
+  ['another show is opened', ({ open }) => open(2, 'B'), ['Another show was opened']],
+  ['the link breaks', ({ live }) => live.link.set('lost'), ['The connection to LightBots broke']],
+  ['the page is left', ({ stop }) => stop(), []],
+  ['it is given up', ({ waiting }) => waiting.set(null), []],
+])('nothing plays by itself after %s', (_, happen, said) => {
+  vi.mocked(notify).mockClear();
   const world = setup();
   world.plan(1, true);
   world.pending();
@@ -97,6 +101,10 @@ test.each<[string, (world: ReturnType<typeof setup>) => void]>([
   world.live.link.set('open');
   world.plan(2);
   expect(world.act).not.toHaveBeenCalled();
+  const words = said.map(
+    (why) => `${why} before the show was planned. Nothing was begun: press again.`,
+  );
+  expect(vi.mocked(notify).mock.calls).toEqual(words.map((line) => ['kept', line]));
 });
 
 test('what waits for an example goes on with the copy that its save made', () => {

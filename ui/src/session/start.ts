@@ -1,6 +1,7 @@
 import type { Session } from './session';
 import { checklistOf, isReady, type Check } from './checklist';
 import type { Opened } from './live';
+import { notify } from './notices';
 
 type Context = Pick<Session, 'live' | 'waiting' | 'editing'>;
 
@@ -40,10 +41,12 @@ export function followPlan(desk: Context): () => void {
   const look = () => {
     const pending = waiting.get();
     if (!pending) return;
-    const isGivenUp = live.link.get() !== 'open' || !pending.names.includes(live.opened.get().name);
-    if (!isGivenUp && !isPlanned(desk)) return;
+    const whyNot = whyGivenUp(live, pending.names);
+    if (!whyNot && !isPlanned(desk)) return;
     waiting.set(null);
-    if (!isGivenUp) pending.act();
+    if (whyNot)
+      notify('kept', `${whyNot} before the show was planned. Nothing was begun: press again.`);
+    else pending.act();
   };
   const stops = [live.plan, live.opened, live.link].map((store) => store.subscribe(look));
   const saver = desk.editing.get()?.saver;
@@ -53,6 +56,12 @@ export function followPlan(desk: Context): () => void {
     waiting.set(null);
     stops.forEach((stop) => stop());
   };
+}
+
+/** Why an action that waits for the plan of a show of these names is given up, as the begin of a sentence; null: it is not. */
+function whyGivenUp(live: Context['live'], names: readonly (string | null)[]): string | null {
+  if (live.link.get() !== 'open') return 'The connection to LightBots broke';
+  return names.includes(live.opened.get().name) ? null : 'Another show was opened';
 }
 
 function isPlanned({ live, editing }: Context): boolean {

@@ -80,14 +80,14 @@ fn is_obstacle(cx: &RunContext, robot: &KnownRobot) -> bool {
 /// dropped. Each call drops the first of these that is left:
 /// - robots that came during the run and take no part (any client can claim to be a robot);
 /// - unlikely places of silent robots;
-/// - all inferred places; but if robots take part that know TARGET only, the places of silent robots are kept, because
-///   on the way to a TARGET no robot brakes for what it sees (R49 of docs/protocol.md);
+/// - all inferred places. If TARGET-only robots take part, places of silent robots are kept: on the way to a TARGET no
+///   robot brakes for what it sees (R49 of docs/protocol.md);
 /// - the next frame itself, so that robots go to the one after it.
 pub(crate) fn relax(cx: &mut RunContext) -> bool {
     let participants = &cx.roster.participants;
     let is_any_silent = participants.iter().any(|known| !known.last_seen.possible.is_empty());
-    let is_any_silent = is_any_silent && !cx.roster.has_target_robots(cx.io);
-    let is_any_inferred = !cx.pipeline.obstacles.found.is_empty() || is_any_silent;
+    let drops_silent = is_any_silent && !cx.roster.has_target_robots(cx.io);
+    let is_any_inferred = !cx.pipeline.obstacles.found.is_empty() || drops_silent;
     let is_unlikely = |places: &Whereabouts| places.possible.len() > places.likely.len();
     let has_unlikely = participants.iter().any(|known| is_unlikely(&known.last_seen));
     let has_strangers = cx.io.fleet.robots().iter().any(|robot| cx.roster.is_stranger(robot));
@@ -100,7 +100,7 @@ pub(crate) fn relax(cx: &mut RunContext) -> bool {
         participants.iter_mut().for_each(|known| keep_likely(&mut known.last_seen));
     } else if is_any_inferred {
         cx.pipeline.obstacles.found.clear();
-        if is_any_silent {
+        if drops_silent {
             participants.iter_mut().for_each(|known| known.last_seen = Whereabouts::default());
         }
     } else {

@@ -24,7 +24,7 @@ pub(crate) struct Upload {
     /// participants.
     unserved: usize,
     /// Messages that were sent and may not be acknowledged yet: when each is to be sent again, and its participant. In
-    /// the order of sending; a message that its robot lost comes first.
+    /// the order of these moments; a message that its robot lost comes first.
     sent: VecDeque<(Instant, usize)>,
     /// Number of messages that were sent and not yet acknowledged.
     open: usize,

@@ -336,17 +336,12 @@ impl Conductor {
     }
 
     /// Stops the robots of a run, if one is under way, leaves the broker and closes the log. Waits until the robots
-    /// have reported that they stand, or until the controller gives up waiting for them. Aborts the run if the
-    /// controller refuses to stop the robots.
+    /// have reported that they stand, or until the controller gives up waiting for them.
     async fn end(mut self) {
         let state = self.controller.state();
         if !matches!(state, ControllerState::Idle | ControllerState::Ready) {
             let now = self.clock.now();
-            // Where robots cannot be stopped, as without a broker, the run is aborted, so that the next start does not
-            // go on with it.
-            let stopped = self.controller.operate(now, Operation::StopAll);
-            let stopped = stopped.or_else(|_| self.controller.operate(now, Operation::Abort));
-            if let Err(refusal) = stopped {
+            if let Err(refusal) = self.controller.operate(now, Operation::StopAll) {
                 tracing::warn!("the robots could not be stopped: {refusal}");
             }
             if self.controller.state() == ControllerState::Aborting {

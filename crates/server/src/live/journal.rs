@@ -82,8 +82,9 @@ impl JournalFile {
     /// otherwise `None`.
     pub fn keep(&mut self, controller: &mut RecordedController) -> Option<String> {
         let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if failure.is_some() || self.tried.is_some_and(|tried| tried.elapsed() > TRY_AGAIN) {
-            self.tried = failure.is_some().then(Instant::now);
+        if failure.is_some() {
+            self.tried = Some(Instant::now());
+        } else if self.tried.take_if(|tried| tried.elapsed() > TRY_AGAIN).is_some() {
             controller.begin_journal_again();
         }
         if self.shared.waiting.load(Ordering::Relaxed) < WAITING_MAX {
@@ -99,10 +100,6 @@ impl JournalFile {
 
     fn send(&mut self, controller: &mut RecordedController) {
         let Some(piece) = controller.take_journal(computer_time()) else { return };
-        // A file can be removed from a disk that cannot be written.
-        if self.tried.is_some() && !piece.ends {
-            return;
-        }
         self.shared.waiting.fetch_add(1, Ordering::Relaxed);
         if self.pieces.try_send(piece).is_err() {
             self.shared.waiting.fetch_sub(1, Ordering::Relaxed);
@@ -129,7 +126,8 @@ impl JournalFile {
 /// The journal's file, for the writing thread.
 struct Written {
     path: PathBuf,
-    /// The open journal. `None` if no journal has begun, if the last one has ended, or if writing it failed.
+    /// The open journal. `None` if no journal has begun, if the last one has ended, or if writing it failed. Pieces that
+    /// are to be appended are then dropped. A file can be removed from a disk that cannot be written.
     file: Option<File>,
 }
 

@@ -293,7 +293,11 @@ fn write_log(
             }
             Piece::Facts => shared.write_facts(&path),
         };
-        written.unwrap_or_else(|error| shared.fail(&error));
+        if let Err(error) = written {
+            shared.fail(&error);
+            // A report of a part would look like that of the whole run.
+            reporter = None;
+        }
     }
     shared.write_facts(&path)?;
     file.sync_all()?;

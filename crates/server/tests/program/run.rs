@@ -77,7 +77,7 @@ fn sorted(mut places: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 #[test]
 fn abort_stops_all_robots_and_the_next_run_begins_from_there() {
     let _turn = alone();
-    // From the front row to the far end, so that no robot has arrived before the abort.
+    // From the back row to the front edge, so that no robot has arrived before the abort.
     let far = shows::row(4, &[0.1]).replace("1.200", "-1.300");
     let (_server, address, _) = start(&["--robots", "4", &shows::file("far.lightbots.json", far)]);
     let mut screen = Screen::open(&address);
@@ -123,7 +123,7 @@ fn a_larger_show_gets_a_larger_cast_on_its_own_floor() {
     let wide = shows::row(32, &[0.1]).replacen("\"name\"", r#""stage":{"width_m":4,"depth_m":4},"name""#, 1);
     assert_eq!(http::request(&address, "PUT", "/api/shows/Wide", &[], &wide).status, 200);
     screen.must(json!({"do": "open", "name": "Wide"}));
-    screen.until("the front row of the larger floor", |screen| {
+    screen.until("the back row of the larger floor", |screen| {
         let places = screen.places();
         (places.len() == 32 && places.iter().all(|(_, y)| *y > 1.6)).then_some(())
     });
