@@ -292,6 +292,15 @@ impl Controller {
         }
     }
 
+    /// Tells all robots to stop: now, or when the broker is connected again. `held_from`: see [`Stopping::begin`].
+    pub(crate) fn halt(&mut self, now: Instant, held_from: Option<Instant>) {
+        if self.context.outbox.linked() {
+            self.stopping = Some(Stopping::begin(&mut self.context, now, held_from));
+        } else {
+            self.stops_when_connected = true;
+        }
+    }
+
     /// What the controller is doing.
     pub fn state(&self) -> ControllerState {
         match &self.run {

@@ -10,7 +10,6 @@ use crate::preflight::{self, TestedRobot};
 use crate::robot::KnownRobot;
 use crate::run::{LIVE_MAX, NAME_MAX, PlayedShow, PreflightCheck, Run, RunPurpose};
 use crate::snapshot::Age;
-use crate::stopping::Stopping;
 use lightbots_base::{Instant, RobotId, Span, Vec2};
 use lightbots_show::{Issue, Layer, SPEED_MIN_PERCENT, Show, slowed, validate};
 use lightbots_wire::{Blink, Command, Topic};
@@ -353,15 +352,6 @@ impl Controller {
         self.halt(now, held_from);
         self.context.log.record(now, EventKind::StoppedAll);
         Ok(())
-    }
-
-    /// Tells all robots to stop: now, or when the broker is connected again.
-    pub(crate) fn halt(&mut self, now: Instant, held_from: Option<Instant>) {
-        if self.context.outbox.linked() {
-            self.stopping = Some(Stopping::begin(&mut self.context, now, held_from));
-        } else {
-            self.stops_when_connected = true;
-        }
     }
 
     fn identify(&mut self, id: RobotId) -> Result<(), Refusal> {

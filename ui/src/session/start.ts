@@ -58,7 +58,7 @@ export function followPlan(desk: Context): () => void {
   };
 }
 
-/** Why an action that waits for the plan of a show of these names is given up, as the begin of a sentence; null: it is not. */
+/** Why an action that waits for the plan of such a show is given up, as the begin of a sentence; null: it waits. */
 function whyGivenUp(live: Context['live'], names: readonly (string | null)[]): string | null {
   if (live.link.get() !== 'open') return 'The connection to LightBots broke';
   return names.includes(live.opened.get().name) ? null : 'Another show was opened';

@@ -32,6 +32,6 @@ const MAGIC: &[u8; 8] = b"LBotsJrn";
 pub(crate) const VERSION: u16 = 13;
 
 /// Place (offset in bytes) and value of the byte that says that entries after the last one are missing. The program
-/// that keeps the file writes it when it could not write a piece: on most file systems a byte can be replaced although the disk is full. The byte
-/// is 0 before.
+/// that keeps the file writes it when it could not write a piece: on most file systems a byte can be replaced although
+/// the disk is full. The byte is 0 before.
 pub const OUTDATED: (usize, u8) = (MAGIC.len() + size_of::<u16>(), 1);
