@@ -172,6 +172,6 @@ fn a_program_gives_go_over_http() {
     assert_eq!(operate(json!({"do": "go"})).status, 204);
     screen.wait_for_log("Run finished");
     assert_eq!(operate(json!({"do": "dance"})).status, 422);
-    let long = json!({"do": "open", "name": "x".repeat(70_000)});
+    let long = json!({"do": "open", "name": "x".repeat(140_000)});
     assert_eq!(operate(long).status, 413);
 }
